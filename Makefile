@@ -29,9 +29,10 @@ demo: $(VENV)/.ready-run
 test: $(VENV)/.ready-test
 	$(PYTEST) $(TESTS)
 
-# The same kernels as plain Python: slower by the hundredfold, so the `large` tests are left out.
+# The same kernels as plain Python, over arrays that refuse negative indices (-1 means "none" and must never be read
+# through). Slower by the hundredfold, so the `large` tests are left out.
 test-interpreted: $(VENV)/.ready-test
-	NUMBA_DISABLE_JIT=1 $(PYTEST) -m "not large" $(TESTS)
+	NUMBA_DISABLE_JIT=1 HALFMESH_STRICT=1 $(PYTEST) -m "not large" $(TESTS)
 
 # Compiled kernels that check every array index.
 test-bounds: $(VENV)/.ready-test

@@ -1,0 +1,45 @@
+"""Every ``>>>`` in README.md and in the pages of docs/ runs and prints what the page says it prints."""
+
+from __future__ import annotations
+
+import doctest
+import io
+import re
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parent.parent
+PAGES = sorted({ROOT / "README.md", ROOT / "ARCHITECTURE.md", *ROOT.glob("docs/**/*.md")})
+FENCE = re.compile(r"^```pycon\n(.*?)^```$", re.MULTILINE | re.DOTALL)
+FLAGS = doctest.NORMALIZE_WHITESPACE | doctest.ELLIPSIS
+
+
+def examples_of(page: Path) -> doctest.DocTest:
+    """The page as one session: everything outside the fences is blanked, so that line numbers stay right."""
+    text = page.read_text(encoding="utf-8")
+    lines = [""] * (text.count("\n") + 1)
+    for fence in FENCE.finditer(text):
+        first = text.count("\n", 0, fence.start(1))
+        for i, line in enumerate(fence.group(1).splitlines()):
+            lines[first + i] = line
+    return doctest.DocTestParser().get_doctest("\n".join(lines), {}, page.name, str(page), 0)
+
+
+WITH_EXAMPLES = [page for page in PAGES if examples_of(page).examples]
+
+
+@pytest.mark.parametrize("page", WITH_EXAMPLES, ids=lambda page: str(page.relative_to(ROOT)))
+def test_examples_of_the_page_run(page: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)  # pages may write files
+    said = io.StringIO()
+    result = doctest.DocTestRunner(optionflags=FLAGS).run(examples_of(page), out=said.write)
+    assert result.failed == 0, said.getvalue()
+
+
+def test_every_prompt_stands_in_a_fence_that_runs() -> None:
+    for page in PAGES:
+        text = page.read_text(encoding="utf-8")
+        shown = re.findall(r"^\s*>>>", text, re.MULTILINE)
+        run = [line for body in FENCE.findall(text) for line in re.findall(r"^\s*>>>", body, re.MULTILINE)]
+        assert len(shown) == len(run), f"{page.name}: a `>>>` outside a pycon fence is never run"
