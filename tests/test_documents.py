@@ -5,9 +5,12 @@ from __future__ import annotations
 import doctest
 import io
 import re
+import runpy
 from pathlib import Path
 
 import pytest
+
+import halfmesh as hm
 
 ROOT = Path(__file__).resolve().parent.parent
 PAGES = sorted({ROOT / "README.md", ROOT / "ARCHITECTURE.md", *ROOT.glob("docs/**/*.md")})
@@ -43,3 +46,12 @@ def test_every_prompt_stands_in_a_fence_that_runs() -> None:
         shown = re.findall(r"^\s*>>>", text, re.MULTILINE)
         run = [line for body in FENCE.findall(text) for line in re.findall(r"^\s*>>>", body, re.MULTILINE)]
         assert len(shown) == len(run), f"{page.name}: a `>>>` outside a pycon fence is never run"
+
+
+def test_code_of_the_readme_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    hm.save(hm.shapes.icosphere(2), "bunny.obj")
+    code = re.findall(r"^```python\n(.*?)^```$", (ROOT / "README.md").read_text(encoding="utf-8"), re.M | re.S)
+    assert len(code) == 1
+    Path("readme.py").write_text(code[0])
+    runpy.run_path("readme.py")
