@@ -1,0 +1,12 @@
+"""Pictures of meshes.
+
+:func:`structure_diagram` draws a small mesh with all of its halfedges and links, as SVG text and without any
+dependency: the figure that explains the structure.
+"""
+
+from __future__ import annotations
+
+from halfmesh.viewer.diagram import save_structure_diagram, structure_diagram
+from halfmesh.viewer.example_patch import FIGURE_FACES, FIGURE_POINTS
+
+__all__ = ["FIGURE_FACES", "FIGURE_POINTS", "save_structure_diagram", "structure_diagram"]
