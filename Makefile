@@ -78,7 +78,7 @@ $(VENV)/.ready-%: pyproject.toml | $(PY)
 	@touch $@
 
 # The first candidate that runs and is new enough makes the environment (a name on PATH may be an empty shim).
-# Where Python comes without ensurepip (Debian without python3-venv), pip's own bootstrap script brings it.
+# Where Python comes without ensurepip (Debian without python3-venv), a pip that is there already brings the new one.
 $(PY):
 	@for candidate in $(PYTHON) python3.13 python3.12 python3.11 python3 python; do \
 	    "$$candidate" -c 'import sys; sys.exit(sys.version_info < (3, 11))' 2>/dev/null || continue; \
@@ -86,10 +86,11 @@ $(PY):
 	    if "$$candidate" -c 'import ensurepip' 2>/dev/null; then \
 	        "$$candidate" -m venv $(VENV); \
 	    else \
-	        "$$candidate" -m venv --without-pip $(VENV) && $(PY) -c \
-	            'import urllib.request as u; exec(u.urlopen("https://bootstrap.pypa.io/get-pip.py").read())' --quiet; \
+	        "$$candidate" -m venv --without-pip $(VENV) && "$$candidate" -m pip --python $(PY) install --quiet pip; \
 	    fi && exit; \
-	    rm -rf $(VENV); exit 1; \
+	    rm -rf $(VENV); \
+	    echo "$$candidate has neither ensurepip nor pip (on Debian and Ubuntu: apt install python3-venv)" >&2; \
+	    exit 1; \
 	done; \
 	echo "halfmesh needs Python 3.11 or newer, and none was found; name one: make $(MAKECMDGOALS) PYTHON=/path/to/python" >&2; \
 	exit 1
