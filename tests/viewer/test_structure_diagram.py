@@ -250,3 +250,16 @@ def test_deleted_elements_are_left_out() -> None:
         "edge": ["0", "1", "2"],
         "face": ["0"],
     }
+
+
+@pytest.mark.parametrize("make", READABLE)
+def test_arrows_that_follow_each_other_do_not_cross(make) -> None:  # type: ignore[no-untyped-def]
+    layout = lay_out(make())
+
+    def is_left(a: complex, b: complex, z: complex) -> bool:
+        return ((z - a) * (b - a).conjugate()).imag < 0
+
+    for h, one in layout.arrows.halfedges.items():
+        two = layout.arrows.halfedges[layout.wiring.next[h]]
+        parted = is_left(one.tail, one.tip, two.tail) == is_left(one.tail, one.tip, two.tip)
+        assert parted or is_left(two.tail, two.tip, one.tail) == is_left(two.tail, two.tip, one.tip)
