@@ -1,0 +1,1 @@
+"""Halfmesh beside the other mesh libraries that pip can install: `python -m benchmarks`."""

@@ -1,0 +1,249 @@
+"""The tables: in the terminal, in `docs/benchmarks.md` and in the README, all from one `results.json`."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from rich.console import Console
+from rich.table import Table as RichTable
+
+from benchmarks.data import ROOT
+from benchmarks.figures import OURS, YARDSTICKS, Figures, Record, fastest, ratio, seconds_per_item
+from benchmarks.runner import results_path
+from benchmarks.task import Task, size
+from benchmarks.tasks import TASKS
+from benchmarks.verdicts import verdicts
+
+BEGIN, END = "<!-- bench:begin -->", "<!-- bench:end -->"
+SPEEDS = "Speed in multiples of the fastest other library's, and the best time."
+
+
+@dataclass
+class Table:
+    """One table, whatever it is shown in."""
+
+    title: str
+    head: list[str]
+    rows: list[list[str]]
+    caption: str = ""
+    remarks: list[str] = field(default_factory=list)
+
+    def markdown(self, level: int = 3) -> str:
+        lines = [f"{'#' * level} {self.title}", ""] if self.title else []
+        lines += [self.caption, ""] if self.caption else []
+        lines += [" | ".join(["", *row, ""]).strip() for row in (self.head, ["---"] * len(self.head), *self.rows)]
+        lines += ["", *(f"- {remark}" for remark in self.remarks)] if self.remarks else []
+        return "\n".join(lines) + "\n"
+
+    def rich(self) -> RichTable:
+        table = RichTable(title=self.title, caption="\n".join([self.caption, *self.remarks]).strip() or None,
+                          title_justify="left", caption_justify="left")  # fmt: skip
+        for name in self.head:
+            table.add_column(name)
+        for row in self.rows:
+            table.add_row(*row, style="bold" if row[0] == OURS else None)
+        return table
+
+
+# ---- one table per task ----------------------------------------------------------------------------------------------
+
+
+def task_table(figures: Figures, task: Task) -> Table:
+    """Rows are ways, columns are cases, our ways first, then the others by speed."""
+    cases = list(dict.fromkeys(record["case"] for record in figures.records if record["task"] == task.name))
+    ways = dict.fromkeys((record["peer"], record["way"]) for record in figures.of(task.name))
+    cells = {(record["peer"], record["way"], record["case"]): record for record in figures.of(task.name)}
+
+    def order(way: tuple[str, str]) -> tuple[bool, float]:
+        records = [cells[*way, case] for case in cases if (*way, case) in cells]
+        return way[0] != OURS, min(seconds_per_item(record) for record in records)
+
+    rows = []
+    for peer, way in sorted(ways, key=order):
+        records = [cells.get((peer, way, case)) for case in cases]
+        told = [speed(record, figures.rival(task.name, case)) for record, case in zip(records, cases, strict=True)]
+        rows.append([peer, way, *told, notes([record for record in records if record])])
+    return Table(task.title, ["library", "way", *cases, "notes"], rows, SPEEDS, remarks(figures, task))
+
+
+def handle_table(figures: Figures, task: Task) -> Table:
+    """Rows are libraries, columns are the kinds of step."""
+    kinds = list(dict.fromkeys(record["way"] for record in figures.of(task.name)))
+    peers = dict.fromkeys(record["peer"] for record in figures.of(task.name))
+    rows = []
+    for peer in sorted(peers, key=lambda peer: peer != OURS):
+        cells = [figures.ours(task.name, "", kind) if peer == OURS else figures.rival(task.name, "", peer, kind)
+                 for kind in kinds]  # fmt: skip
+        told = [
+            speed(cell, figures.rival(task.name, "", "openmesh", kind)) for cell, kind in zip(cells, kinds, strict=True)
+        ]
+        rows.append([peer, *told, notes([cell for cell in cells if cell][:1])])
+    caption = "Speed in multiples of openmesh's, and the best time of one step."
+    return Table(task.title, ["library", *kinds, "notes"], rows, caption, remarks(figures, task))
+
+
+def memory_table(figures: Figures, task: Task) -> Table:
+    cases = list(dict.fromkeys(record["case"] for record in figures.of(task.name)))
+    rows = []
+    for peer in sorted({record["peer"] for record in figures.of(task.name)}, key=lambda peer: (peer != OURS, peer)):
+        records = {record["case"]: record for record in figures.of(task.name, peer=peer)}
+        told = [f"{r['held'] / r['items']:.0f}, peak {r['peak'] / r['items']:.0f}" if (r := records.get(case)) else ""
+                for case in cases]  # fmt: skip
+        rows.append([peer, *told, next(iter(records.values()))["note"]])
+    caption = "Bytes per triangle, by the growth of the process: held after the build, and the peak during it."
+    return Table(task.title, ["library", *cases, "notes"], rows, caption, remarks(figures, task))
+
+
+def first_use_table(figures: Figures, task: Task) -> Table:
+    imports = sorted(figures.of(task.name, "import"), key=lambda record: float(record["best"]))
+    others = [record for record in figures.of(task.name) if record["case"] != "import"]
+    rows = [
+        [r["peer"], "import", f"{r['best']:.2f} s", f"{r['best'] - r['numpy']:+.2f} s beyond NumPy's"] for r in imports
+    ] + [[r["peer"], r["case"], f"{r['best']:.2f} s", f"{r['first']:.2f} s on an empty cache"] for r in others]
+    return Table(task.title, ["library", "what", "best", "more"], rows, "", remarks(figures, task))
+
+
+def remarks(figures: Figures, task: Task) -> list[str]:
+    """What is missing from the table, and where the libraries disagree."""
+    silent: dict[tuple[str, tuple[str, ...]], list[str]] = {}
+    for record in figures.silent(task.name):
+        reason = str(record.get("error") or record["skipped"])
+        cases = tuple(r["case"] for r in figures.silent(task.name, record["peer"], reason))
+        who = silent.setdefault((reason, cases), [])
+        if record["peer"] not in who:
+            who.append(record["peer"])
+    told = []
+    for (reason, cases), peers in silent.items():
+        everywhere = not any(figures.of(task.name, peer=peer) for peer in peers)
+        told.append(f"{', '.join(peers)}: {reason}" + ("" if everywhere else f" ({', '.join(cases)})"))
+    return told + figures.disagreements(task.name)
+
+
+def notes(records: list[Record]) -> str:
+    """What is to be known of a way; by case where the cases differ."""
+    by_note: dict[str, list[str]] = {}
+    for record in records:
+        if record["note"]:
+            by_note.setdefault(record["note"], []).append(record["case"].split()[0])
+    if len(by_note) == 1:
+        return next(iter(by_note))
+    return "; ".join(f"{', '.join(cases)}: {note}" for note, cases in by_note.items())
+
+
+def speed(record: Record | None, rival: Record | None) -> str:
+    """`4.1 x, 85 ms`."""
+    if record is None:
+        return ""
+    per_item = record["items"] if record["task"] == "handles" else 1
+    times = ratio(rival, record)
+    return (f"{factor(times)}, " if times is not None else "") + duration(record["best"] / per_item)
+
+
+def factor(times: float) -> str:
+    """Two digits that count: `4.1 x`, `0.08 x`, `230 x`."""
+    return f"{times:.0f} x" if times >= 100 else f"{times:.2g} x"
+
+
+def duration(seconds: float) -> str:
+    unit, scale = next(pair for pair in UNITS if seconds >= pair[1] or pair[1] == 1e-9)
+    digits = f"{seconds / scale:.3g}"
+    return f"{float(digits):,.0f} {unit}" if "e" in digits else f"{digits} {unit}"
+
+
+UNITS = (("s", 1.0), ("ms", 1e-3), ("us", 1e-6), ("ns", 1e-9))
+TABLES = {"handles": handle_table, "memory": memory_table, "first_use": first_use_table}
+
+
+def tables(figures: Figures, tasks: list[str]) -> list[Table]:
+    return [TABLES.get(name, task_table)(figures, TASKS[name]) for name in tasks if figures.of(name)]
+
+
+# ---- the verdict and the short table ---------------------------------------------------------------------------------
+
+
+def verdict_table(figures: Figures) -> Table:
+    words = {True: "yes", False: "**no**", None: "-"}
+    rows = [[row.what, row.asked, row.reached, words[row.passed]] for row in verdicts(figures)]
+    return Table("What is asked, what is reached", ["what", "asked", "reached", "passed"], rows)
+
+
+def short_table(figures: Figures) -> Table:
+    """The README's: the main tasks, ours beside the fastest other library and openmesh."""
+    large, medium = size(figures.plan.large), size(figures.plan.medium)
+    asked = [
+        (f"build the mesh, {large} triangles", "build", f"{large} coherent", ""),
+        ("the same, shuffled", "build", f"{large} shuffled", ""),
+        (f"read OFF, {medium} triangles", "reading", f"OFF {medium}", ""),
+        ("read OBJ", "reading", f"OBJ {medium}", ""),
+        ("write OBJ", "writing", f"OBJ {medium}", ""),
+        ("a loop over all one-rings in your code", "rings", f"{medium} coherent", "hm.kernel with the circulator"),
+        ("one step through handles", "handles", "one step", "walk"),
+        ("vertex normals", "normals", f"{medium} coherent", ""),
+    ]
+    rows = [[what, *compared(figures, task, case, way)] for what, task, case, way in asked]
+    return Table("", ["", OURS, "fastest other", "openmesh", "ratio"], rows)
+
+
+def compared(figures: Figures, task: str, case: str, way: str) -> list[str]:
+    """Ours, the fastest other library's doing the same kind of thing, openmesh's, and ours against the fastest."""
+    ours = figures.ours(task, case, way)
+    theirs = {"rings": "Python loop over vv", "handles": "walk"}.get(task, "")
+    rivals = [r for r in figures.of(task, case) if r["peer"] not in {OURS, *YARDSTICKS}]
+    if task == "rings":
+        rivals = [r for r in rivals if "loop" in r["way"]]  # arrays and matrices are not a loop of one's own
+    elif task == "handles":
+        rivals = [r for r in rivals if r["way"] == way]
+    rival, openmesh = fastest(rivals), figures.rival(task, case, "openmesh", theirs)
+    who, times = f" ({rival['peer']})" if rival else "", ratio(rival, ours)
+    told = "" if times is None else factor(times)
+    return [speed(ours, None), speed(rival, None) + who, speed(openmesh, None), told]
+
+
+def machine_line(figures: Figures) -> str:
+    m = figures.results["machine"]
+    libraries = figures.results["libraries"]
+    versions = [f"{name} {told['version']}" for name, told in libraries.items() if told["version"]]
+    missing = [f"{name} ({told['reason']})" for name, told in libraries.items() if not told["version"]]
+    line = (
+        f"{m['processor']}, {m['cores']} cores, {m['memory']}, {m['system']}, Python {m['python']}, "
+        f"NumPy {m['numpy']}, Numba {m['numba']}, {m['date'][:10]}. {', '.join(versions)}."
+    )
+    return line + (f" Not installed: {'; '.join(missing)}." if missing else "")
+
+
+# ---- where they go ---------------------------------------------------------------------------------------------------
+
+
+def show(results: Record, tasks: list[str], console: Console) -> None:
+    figures = Figures(results)
+    for table in tables(figures, tasks):
+        console.print(table.rich())
+    if figures.of("build", peer=OURS):
+        console.print(verdict_table(figures).rich())
+    console.print(machine_line(figures))
+
+
+def render(quick: bool, console: Console) -> int:
+    """Write the tables between the marks of `docs/benchmarks.md` and `README.md`."""
+    figures = Figures(json.loads(results_path(quick).read_text()))
+    long = [verdict_table(figures), *tables(figures, list(TASKS))]
+    pages = {
+        ROOT / "docs" / "benchmarks.md": "\n".join([machine_line(figures), "", *(t.markdown() for t in long)]),
+        ROOT / "README.md": short_table(figures).markdown(),
+    }
+    missing = [path.relative_to(ROOT) for path, text in pages.items() if not replace_block(path, text)]
+    for path in missing:
+        console.print(f"{path}: no marks {BEGIN} and {END}")
+    return 1 if missing else 0
+
+
+def replace_block(path: Path, text: str) -> bool:
+    """Put the text between the marks; False if the file has none."""
+    page = path.read_text() if path.exists() else ""
+    if BEGIN not in page or END not in page.split(BEGIN, 1)[1]:
+        return False
+    before, rest = page.split(BEGIN, 1)
+    path.write_text(f"{before}{BEGIN}\n\n{text}\n{END}{rest.split(END, 1)[1]}")
+    return True

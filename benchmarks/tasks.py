@@ -1,0 +1,14 @@
+"""All tasks, in the order of the tables."""
+
+from __future__ import annotations
+
+from benchmarks.build import BUILD, WORST
+from benchmarks.first_use import FIRST_USE
+from benchmarks.handles import HANDLES
+from benchmarks.memory import MEMORY
+from benchmarks.normals import NORMALS
+from benchmarks.reading import READING
+from benchmarks.rings import RINGS
+from benchmarks.writing import WRITING
+
+TASKS = {task.name: task for task in (BUILD, WORST, READING, WRITING, RINGS, HANDLES, NORMALS, MEMORY, FIRST_USE)}

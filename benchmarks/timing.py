@@ -1,0 +1,90 @@
+"""The clock: a fair race between several ways to do one thing."""
+
+from __future__ import annotations
+
+import gc
+from collections.abc import Callable
+from dataclasses import asdict, dataclass, field
+from statistics import median
+from time import perf_counter
+from typing import Any
+
+
+class NotOfferedError(Exception):
+    """The library does not offer this; the message says why."""
+
+
+@dataclass(frozen=True)
+class Way:
+    """One way to do a task: a call without arguments, and what to know about it.
+
+    `items` is how many elements one call treats (its unit is the task's), 0 for the case's own number; `facts` turns
+    the result of a call into figures that every library must agree on.
+    """
+
+    run: Callable[[], Any]
+    note: str = ""
+    items: int = 0
+    facts: Callable[[Any], dict[str, float]] = lambda result: {}
+
+
+@dataclass(frozen=True)
+class Plan:
+    """How large and how long: levels of the sphere, sizes of the adversarial meshes, rounds and seconds."""
+
+    small: int = 6
+    medium: int = 7
+    large: int = 8
+    adversarial: int = 100_000
+    sides: int = 1_000_000
+    steps: int = 200_000
+    rounds: int = 9
+    seconds: float = 10.0
+    quick: bool = False
+
+
+QUICK = Plan(
+    small=5, medium=5, large=6, adversarial=10_000, sides=100_000, steps=20_000, rounds=3, seconds=1.0, quick=True
+)
+
+
+@dataclass
+class Timing:
+    """Seconds of one way: the first call apart, then the best and the median of the others."""
+
+    way: str
+    note: str
+    items: int
+    first: float
+    best: float = 0.0
+    median: float = 0.0
+    runs: int = 0
+    facts: dict[str, float] = field(default_factory=dict)
+
+    as_dict = asdict
+
+
+def race(ways: dict[str, Way], plan: Plan, items: int) -> list[Timing]:
+    """Time the ways in turns, so that a slow moment of the machine meets them all; collect garbage before each call."""
+    timings, seconds = [], {label: list[float]() for label in ways}
+    for label, way in ways.items():
+        elapsed, result = timed(way.run)
+        timings.append(Timing(label, way.note, way.items or items, elapsed, facts=way.facts(result)))
+        del result
+    until = perf_counter() + plan.seconds
+    for turn in range(plan.rounds):
+        if turn and perf_counter() > until:
+            break
+        for label, way in ways.items():
+            seconds[label].append(timed(way.run)[0])
+    for timing in timings:
+        own = seconds[timing.way]
+        timing.best, timing.median, timing.runs = min(own), median(own), len(own)
+    return timings
+
+
+def timed(run: Callable[[], Any]) -> tuple[float, Any]:
+    gc.collect()
+    start = perf_counter()
+    result = run()
+    return perf_counter() - start, result
