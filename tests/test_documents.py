@@ -55,3 +55,11 @@ def test_code_of_the_readme_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch
     assert len(code) == 1
     Path("readme.py").write_text(code[0])
     runpy.run_path("readme.py")
+
+
+def test_every_reason_is_in_the_table_of_errors() -> None:
+    sources = "".join(path.read_text(encoding="utf-8") for path in (ROOT / "src").rglob("*.py"))
+    reasons = set(re.findall(r'reason="(\w+)"', sources))
+    page = (ROOT / "docs/guide/errors.md").read_text(encoding="utf-8")
+    assert "nonmanifold_edge" in reasons
+    assert {reason for reason in reasons if f"`{reason}`" not in page} == set()
