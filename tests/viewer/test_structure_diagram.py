@@ -9,6 +9,7 @@ from itertools import combinations
 import numpy as np
 import pytest
 
+import halfmesh as hm
 from halfmesh.errors import ElementError, PreconditionError
 from halfmesh.viewer import FIGURE_FACES, FIGURE_POINTS, save_structure_diagram, structure_diagram
 from halfmesh.viewer.arrows import segments_of
@@ -263,3 +264,16 @@ def test_arrows_that_follow_each_other_do_not_cross(make) -> None:  # type: igno
         two = layout.arrows.halfedges[layout.wiring.next[h]]
         parted = is_left(one.tail, one.tip, two.tail) == is_left(one.tail, one.tip, two.tip)
         assert parted or is_left(two.tail, two.tip, one.tail) == is_left(two.tail, two.tip, one.tip)
+
+
+def test_the_real_mesh_gives_the_same_picture() -> None:
+    mesh = hm.Mesh(FIGURE_FACES, FIGURE_POINTS)
+    mesh.check()
+    assert structure_diagram(mesh) == structure_diagram(figure())
+
+
+def test_wire_and_isolated_vertices_of_a_mesh_are_drawn() -> None:
+    mesh = hm.Mesh([[0, 1, 2]], [[0, 0], [2, 0], [1, 2], [3, 1], [4, 2], [4, 0]], edges=[[1, 3], [3, 4]])
+    svg = structure_diagram(mesh)
+    assert len(groups(svg, "vertex")) == 6
+    assert len(groups(svg, "halfedge")) == 10
