@@ -15,6 +15,8 @@ from benchmarks.tasks import TASKS
 def main() -> int:
     options = parser().parse_args()
     console = Console()
+    if not console.is_terminal:
+        console.width = 180
     if options.command == "render":
         return report.render(options.quick, console)
     peers = options.peers.split(",") if options.peers else list(environment.LIBRARIES)
@@ -30,7 +32,8 @@ def main() -> int:
         results = runner.run(tasks, peers, options.quick, outcomes, tell=status.update)
     report.show(results, tasks, console)
     console.print(f"saved in {runner.results_path(options.quick).relative_to(ROOT)}")
-    return 0
+    everything = not (options.only or options.peers or options.quick)
+    return report.render(options.quick, console) if everything else 0
 
 
 def parser() -> argparse.ArgumentParser:

@@ -207,6 +207,12 @@ def read_points(path: Path) -> Array:
     return np.array(rows, dtype=float)
 
 
+def kept(points: Array, written: Array) -> str:
+    """What a reader or writer made of the coordinates."""
+    lost = abs(points - written).max()
+    return "exact" if lost == 0 else f"coordinates off by up to {lost:.0e}"
+
+
 def triangulated_file(path: Path) -> Surface:
     """A plain OFF or OBJ file with its polygons cut into fans, so that every library can take it."""
     words = [line.split() for line in path.read_text().splitlines() if line.strip() and not line.startswith("#")]

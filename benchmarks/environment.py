@@ -8,6 +8,7 @@ import platform
 import shutil
 import subprocess
 import sys
+import venv
 from dataclasses import dataclass, field
 from datetime import UTC, datetime
 from pathlib import Path
@@ -16,6 +17,7 @@ from benchmarks.data import ROOT
 
 VENV = ROOT / ".bench" / "venv"
 PYTHON = VENV / ("Scripts/python.exe" if os.name == "nt" else "bin/python")
+PIP = (sys.executable, "-m", "pip", "--disable-pip-version-check", "--python", str(PYTHON), "install", "--quiet")
 PATIENCE = 1800  # seconds for one library, built from source at the worst
 
 
@@ -56,7 +58,7 @@ class Outcome:
 def prepare(names: list[str]) -> dict[str, Outcome]:
     """Install what is missing, each library by a pip call of its own."""
     if not PYTHON.exists():
-        subprocess.run([sys.executable, "-m", "venv", str(VENV)], check=True)
+        venv.create(VENV, with_pip=False)  # our own pip does the work: some systems have none to give
     reasons = {name: install(LIBRARIES[name]) for name in names if LIBRARIES[name].distribution not in versions()}
     now = versions()
     return {name: Outcome(now.get(LIBRARIES[name].distribution, ""), reasons.get(name, "")) for name in names}
@@ -66,9 +68,9 @@ def install(library: Library) -> str:
     """Empty, or the reason why pip failed."""
     variables = os.environ | library.variables
     if library.needs_cmake and not shutil.which("cmake"):
-        subprocess.run([str(PYTHON), "-m", "pip", "install", "--quiet", "cmake"], check=False)
+        subprocess.run([*PIP, "cmake"], check=False)
         variables["PATH"] = os.pathsep.join([str(PYTHON.parent), variables["PATH"]])
-    command = [str(PYTHON), "-m", "pip", "install", "--quiet", "--disable-pip-version-check", *library.install]
+    command = [*PIP, *library.install]
     try:
         done = subprocess.run(command, check=False, env=variables, capture_output=True, text=True, timeout=PATIENCE)
     except subprocess.TimeoutExpired:

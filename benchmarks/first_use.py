@@ -78,4 +78,4 @@ def halfmesh_command() -> str:
     return str(Path(sys.executable).with_name("halfmesh"))
 
 
-FIRST_USE = Task("first_use", "First use", "call", cases, measure, patience=300)
+FIRST_USE = Task("first_use", "First use", "call", cases, measure, patience=300, repeats=False)

@@ -54,4 +54,4 @@ def status(key: str) -> int:
     return next(int(line.split()[1]) * 1024 for line in lines if line.startswith(f"{key}:"))
 
 
-MEMORY = Task("memory", "Memory of a build, beyond the input", "triangle", cases, measure)
+MEMORY = Task("memory", "Memory of a build, beyond the input", "triangle", cases, measure, repeats=False)

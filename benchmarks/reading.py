@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from benchmarks.compare.peer import Peer
-from benchmarks.data import CORPUS, load, text_file
+from benchmarks.data import CORPUS, kept, load, text_file
 from benchmarks.task import Case, Task, size
 from benchmarks.timing import Plan, race
 
@@ -20,7 +20,13 @@ def cases(plan: Plan) -> list[Case]:
 
 def measure(peer: Peer, case: Case, plan: Plan) -> list[dict[str, Any]]:
     path = file_of(case)
-    return [timing.as_dict() for timing in race(peer.readers(path), plan, path.stat().st_size)]
+    ways = peer.readers(path)
+    records = [timing.as_dict() for timing in race(ways, plan, path.stat().st_size)]
+    if "/" not in case.mesh:
+        made = load(case.mesh.rpartition(".")[0]).points
+        for record, way in zip(records, ways.values(), strict=True):
+            record["note"] = ", ".join(filter(None, [record["note"], kept(made, way.points(way.run()))]))
+    return records
 
 
 def file_of(case: Case) -> Path:

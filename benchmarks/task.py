@@ -30,6 +30,7 @@ class Task:
     cases: Callable[[Plan], list[Case]]
     measure: Callable[[Peer, Case, Plan], list[dict[str, Any]]]
     patience: float = 150.0  # seconds until a library is given up
+    repeats: bool = True  # whether more than one pass is of use
 
 
 def racing(

@@ -19,18 +19,22 @@ class Way:
     """One way to do a task: a call without arguments, and what to know about it.
 
     `items` is how many elements one call treats (its unit is the task's), 0 for the case's own number; `facts` turns
-    the result of a call into figures that every library must agree on.
+    the result of a call into figures that every library must agree on; `points` takes the coordinates out of it.
     """
 
     run: Callable[[], Any]
     note: str = ""
     items: int = 0
     facts: Callable[[Any], dict[str, float]] = lambda result: {}
+    points: Callable[[Any], Any] = lambda result: None
 
 
 @dataclass(frozen=True)
 class Plan:
-    """How large and how long: levels of the sphere, sizes of the adversarial meshes, rounds and seconds."""
+    """How large: levels of the sphere, sizes of the adversarial meshes. How long: rounds and seconds in one process.
+
+    Passes go over all libraries, each in a new process, so that a slow moment of the machine meets them all.
+    """
 
     small: int = 6
     medium: int = 7
@@ -38,13 +42,23 @@ class Plan:
     adversarial: int = 100_000
     sides: int = 1_000_000
     steps: int = 200_000
-    rounds: int = 9
-    seconds: float = 10.0
+    rounds: int = 4
+    seconds: float = 4.0
+    passes: int = 3
     quick: bool = False
 
 
 QUICK = Plan(
-    small=5, medium=5, large=6, adversarial=10_000, sides=100_000, steps=20_000, rounds=3, seconds=1.0, quick=True
+    small=5,
+    medium=5,
+    large=6,
+    adversarial=10_000,
+    sides=100_000,
+    steps=20_000,
+    rounds=3,
+    seconds=1.0,
+    passes=1,
+    quick=True,
 )
 
 

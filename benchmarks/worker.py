@@ -11,6 +11,7 @@ import sys
 from pathlib import Path
 from typing import Any
 
+from benchmarks.data import ROOT
 from benchmarks.tasks import TASKS
 from benchmarks.timing import QUICK, NotOfferedError, Plan
 
@@ -29,7 +30,7 @@ def records(peer_name: str, task_name: str, case_name: str, plan: Plan) -> list[
     except NotOfferedError as reason:
         return [{"skipped": str(reason)}]
     except Exception as error:  # every failure of a library is a result
-        return [{"error": f"{type(error).__name__}: {error}"[:300]}]
+        return [{"error": f"{type(error).__name__}: {error}".replace(str(ROOT), ".")[:300]}]
 
 
 if __name__ == "__main__":

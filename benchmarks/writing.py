@@ -7,7 +7,7 @@ from tempfile import TemporaryDirectory
 from typing import Any
 
 from benchmarks.compare.peer import Peer
-from benchmarks.data import CACHE, load, read_points
+from benchmarks.data import CACHE, kept, load, read_points
 from benchmarks.reading import FORMATS
 from benchmarks.task import Case, Task, size
 from benchmarks.timing import Plan, race
@@ -23,8 +23,7 @@ def measure(peer: Peer, case: Case, plan: Plan) -> list[dict[str, Any]]:
     with TemporaryDirectory(dir=CACHE) as folder:
         path = Path(folder) / f"written.{suffix}"
         timings = race(peer.writers(surface, path), plan, surface.n_faces)
-        lost = abs(read_points(path) - surface.points).max()
-        note = "exact" if lost == 0 else f"coordinates off by up to {lost:.0e}"
+        note = kept(surface.points, read_points(path))
     return [timing.as_dict() | {"note": note} for timing in timings]
 
 

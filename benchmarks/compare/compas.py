@@ -33,7 +33,9 @@ class Compas(Peer):
             raise NotOfferedError("not asked to read files above 10 MB: minutes")
         return {
             read.__name__: Way(
-                lambda: read(str(path)), facts=lambda mesh: counted(mesh.number_of_vertices(), mesh.number_of_faces())
+                lambda: read(str(path)),
+                facts=lambda mesh: counted(mesh.number_of_vertices(), mesh.number_of_faces()),
+                points=lambda mesh: np.array(mesh.to_vertices_and_faces()[0]),
             )
         }
 

@@ -34,11 +34,12 @@ class HalfMesh(Peer):
             return counted(len(points), len(faces[1]) - 1 if isinstance(faces, tuple) else len(faces))
 
         return {
-            "io.read": Way(lambda: hm.io.read(path), "arrays only", facts=arrays),
+            "io.read": Way(lambda: hm.io.read(path), "arrays only", facts=arrays, points=lambda read: read[1]),
             "load": Way(
                 lambda: hm.load(path),
                 "builds connectivity",
                 facts=lambda mesh: counted(mesh.n_vertices, mesh.n_faces),
+                points=lambda mesh: mesh.points,
             ),
         }
 

@@ -22,7 +22,10 @@ class Igl(Peer):
     def readers(self, path: Path) -> Ways:
         return {
             "read_triangle_mesh": Way(
-                lambda: igl.read_triangle_mesh(path), "arrays only", facts=lambda vf: counted(len(vf[0]), len(vf[1]))
+                lambda: igl.read_triangle_mesh(path),
+                "arrays only",
+                facts=lambda vf: counted(len(vf[0]), len(vf[1])),
+                points=lambda vf: vf[0],
             )
         }
 

@@ -32,6 +32,7 @@ class Lagrange(Peer):
                 lambda: lagrange.io.load_mesh(path),
                 "arrays only",
                 facts=lambda mesh: counted(mesh.num_vertices, mesh.num_facets),
+                points=lambda mesh: mesh.vertices,
             )
         }
 

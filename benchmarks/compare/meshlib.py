@@ -32,6 +32,7 @@ class MeshLib(Peer):
                 lambda: mm.loadMesh(path),
                 "builds connectivity",
                 facts=lambda mesh: counted(mesh.topology.numValidVerts(), mesh.topology.numValidFaces()),
+                points=mn.getNumpyVerts,
             )
         }
 

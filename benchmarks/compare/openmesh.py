@@ -31,6 +31,7 @@ class OpenMesh(Peer):
                 lambda: om.read_trimesh(str(path)),
                 "builds connectivity",
                 facts=lambda mesh: counted(mesh.n_vertices(), mesh.n_faces()),
+                points=lambda mesh: mesh.points(),
             )
         }
 

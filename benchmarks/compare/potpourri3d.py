@@ -16,7 +16,10 @@ class Potpourri3d(Peer):
     def readers(self, path: Path) -> Ways:
         return {
             "read_mesh": Way(
-                lambda: pp3d.read_mesh(str(path)), "arrays only", facts=lambda vf: counted(len(vf[0]), len(vf[1]))
+                lambda: pp3d.read_mesh(str(path)),
+                "arrays only",
+                facts=lambda vf: counted(len(vf[0]), len(vf[1])),
+                points=lambda vf: vf[0],
             )
         }
 

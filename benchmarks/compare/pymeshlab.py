@@ -22,7 +22,7 @@ class PyMeshLab(Peer):
         def facts(meshes: pymeshlab.MeshSet) -> dict[str, float]:
             return counted(meshes.current_mesh().vertex_number(), meshes.current_mesh().face_number())
 
-        return {"load_new_mesh": Way(read, facts=facts)}
+        return {"load_new_mesh": Way(read, facts=facts, points=lambda meshes: meshes.current_mesh().vertex_matrix())}
 
     def writers(self, surface: Surface, path: Path) -> Ways:
         meshes = mesh_set(surface)

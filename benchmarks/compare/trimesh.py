@@ -29,6 +29,7 @@ class Trimesh(Peer):
                 lambda: trimesh.load_mesh(str(path), process=False),
                 "arrays only",
                 facts=lambda mesh: counted(len(mesh.vertices), len(mesh.faces)),
+                points=lambda mesh: mesh.vertices,
             )
         }
 

@@ -38,8 +38,15 @@ class Trueform(Peer):
 
         name = str(path)
         return {
-            "read_obj": Way(lambda: tf.read_obj(name, ngon=3, dtype=np.float64), "arrays only", facts=facts),
-            "read_obj, float32": Way(lambda: tf.read_obj(name, ngon=3), "arrays only, half the digits", facts=facts),
+            "read_obj": Way(
+                lambda: tf.read_obj(name, ngon=3, dtype=np.float64),
+                "arrays only",
+                facts=facts,
+                points=lambda read: read[1],
+            ),
+            "read_obj, float32": Way(
+                lambda: tf.read_obj(name, ngon=3), "arrays only", facts=facts, points=lambda read: read[1]
+            ),
         }
 
     def writers(self, surface: Surface, path: Path) -> Ways:
