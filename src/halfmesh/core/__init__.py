@@ -1,0 +1,1 @@
+"""The arrays and the rules: connectivity alone, as ints. Nothing here knows positions, or :class:`halfmesh.Mesh`."""

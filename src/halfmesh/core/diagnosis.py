@@ -1,0 +1,275 @@
+"""Why faces can't be held: all offending elements, the reason, and what would help.
+
+Construction only notices *that* something is wrong, at full speed. What is wrong is found here, once it matters, by
+sorting: O(n log n) whatever the input, all elements of each kind of defect and not just the first.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from halfmesh._jit import kernel
+from halfmesh.core.facelist import FaceList
+from halfmesh.errors import InvalidMeshError
+
+__all__ = ["explain", "explain_twins", "listed"]
+
+Ints = NDArray[np.integer]
+SHOWN = 3  # elements named in a message; the exception carries them all
+
+
+def explain(faces: FaceList) -> InvalidMeshError:
+    """The error for faces that construction refused."""
+    corners, begins = faces.corners, faces.begins()
+    degrees = np.diff(begins)
+    face_of = np.repeat(np.arange(faces.n_faces), degrees)
+    for question in (_out_of_range, _too_small, _repeated):
+        error = question(faces, corners, begins, face_of)
+        if error is not None:
+            return error
+    following = _following(begins)
+    origin, target = corners.astype(np.int64), corners[following].astype(np.int64)
+    error = _crowded_edges(faces, origin, target, face_of)
+    return error if error is not None else _crowded_vertices(faces, origin, target, following)
+
+
+def _following(begins: Ints) -> Ints:
+    """The corner after each corner, around its face."""
+    following = np.arange(1, begins[-1] + 1)
+    full = begins[1:] > begins[:-1]
+    following[begins[1:][full] - 1] = begins[:-1][full]
+    return following
+
+
+def listed(items: Any, what: str = "") -> str:
+    """``3, 8, 12, ... (40 in all)``: the first few of many."""
+    items = list(items[: SHOWN + 1]) + [None] * max(0, len(items) - SHOWN - 1)
+    text = ", ".join(str(i) for i in items[:SHOWN])
+    return f"{what}{text}" + (f", ... ({len(items)} in all)" if len(items) > SHOWN else "")
+
+
+def _plural(n: int, one: str, many: str | None = None) -> str:
+    return f"{n} {one if n == 1 else many or one + 's'}"
+
+
+# ----------------------------------------------------------------------------------------------------- single corners
+
+
+def _out_of_range(faces: FaceList, corners: Ints, begins: Ints, face_of: Ints) -> InvalidMeshError | None:
+    bad = np.flatnonzero((corners < 0) | (corners >= faces.n_vertices))
+    if not len(bad):
+        return None
+    where = [f"face {face_of[c]} (corner {c - begins[face_of[c]]})" for c in bad[:SHOWN]] + [""] * (len(bad) - SHOWN)
+    return InvalidMeshError(
+        f"{_plural(len(bad), 'index', 'indices')} out of range 0..{faces.n_vertices - 1}: {listed(where)}; "
+        "indices count from 0, and every index needs a point",
+        reason="index_out_of_range",
+        elements={"corners": bad, "faces": np.unique(face_of[bad])},
+    )
+
+
+def _too_small(faces: FaceList, corners: Ints, begins: Ints, face_of: Ints) -> InvalidMeshError | None:
+    degrees = np.diff(begins)
+    bad = np.flatnonzero(degrees < 3)
+    if not len(bad):
+        return None
+    return InvalidMeshError(
+        f"{_plural(len(bad), 'face has', 'faces have')} fewer than 3 corners: {listed(bad, 'face ')}; "
+        "drop them, or pass the edges among them as edges=",
+        reason="small_face",
+        elements={"faces": bad},
+    )
+
+
+def _repeated(faces: FaceList, corners: Ints, begins: Ints, face_of: Ints) -> InvalidMeshError | None:
+    bad = np.flatnonzero(corners == corners[_following(begins)])
+    if not len(bad):
+        return None
+    where = [f"face {face_of[c]} (vertex {corners[c]})" for c in bad[:SHOWN]] + [""] * (len(bad) - SHOWN)
+    return InvalidMeshError(
+        f"{_plural(len(bad), 'corner repeats', 'corners repeat')} a vertex in succession: {listed(where)}; "
+        "remove the repetition, and the face if fewer than 3 corners are left",
+        reason="repeated_vertex",
+        elements={"corners": bad, "faces": np.unique(face_of[bad]), "vertices": np.unique(corners[bad])},
+    )
+
+
+# -------------------------------------------------------------------------------------------------------------- edges
+
+
+def _crowded_edges(faces: FaceList, origin: Ints, target: Ints, face_of: Ints) -> InvalidMeshError | None:
+    """Edges with more than two faces; else edges that two faces run along in the same direction."""
+    n = max(faces.n_vertices, 1)
+    edge = np.minimum(origin, target) * n + np.maximum(origin, target)
+    order = np.argsort(edge, kind="stable")
+    starts = np.flatnonzero(np.r_[True, edge[order][1:] != edge[order][:-1]])
+    uses = np.diff(np.r_[starts, len(order)])
+    crowded = uses > 2
+    if crowded.any():
+        return _too_many_faces(edge[order][starts[crowded]], n, order, starts[crowded], uses[crowded], face_of)
+    first = order[starts[uses == 2]]
+    second = order[starts[uses == 2] + 1]
+    same = origin[first] == origin[second]
+    if not same.any():
+        return None
+    pairs = np.stack([origin[first[same]], target[first[same]]], axis=1)
+    return _disoriented(faces.n_faces, pairs, face_of[first], face_of[second], same)
+
+
+def _too_many_faces(keys: Ints, n: int, order: Ints, starts: Ints, uses: Ints, face_of: Ints) -> InvalidMeshError:
+    edges = np.stack([keys // n, keys % n], axis=1)
+    of_edge = [np.unique(face_of[order[s : s + k]]) for s, k in zip(starts[:SHOWN], uses[:SHOWN], strict=True)]
+    shown = [f"{a}-{b} ({listed(f, 'faces ')})" for (a, b), f in zip(edges[:SHOWN], of_edge, strict=True)]
+    all_uses = np.repeat(starts, uses) + _ramp(uses)
+    return InvalidMeshError(
+        f"{_plural(len(edges), 'edge has', 'edges have')} more than two faces: {listed(shown + [''] * (len(edges) - SHOWN))}; "
+        "a half-edge mesh holds two faces an edge: remove faces, or give the sheets vertices of their own",
+        reason="nonmanifold_edge",
+        elements={"edges": edges, "faces": np.unique(face_of[order[all_uses]])},
+    )
+
+
+def _ramp(lengths: Ints) -> Ints:
+    """0, 1, ..., lengths[0] - 1, 0, 1, ..."""
+    ends = np.cumsum(lengths)
+    return np.arange(ends[-1]) - np.repeat(ends - lengths, lengths)
+
+
+def _disoriented(n_faces: int, pairs: Ints, first: Ints, second: Ints, same: Ints) -> InvalidMeshError:
+    parent = np.arange(n_faces, dtype=np.int32)
+    turned = np.zeros(n_faces, dtype=np.uint8)
+    jobs = (first.astype(np.int32), second.astype(np.int32), same.astype(np.uint8))
+    conflicts = _orient.at(n_faces)(*jobs, parent, turned)
+    shown = [f"{a}->{b} (faces {f}, {g})" for (a, b), f, g in zip(pairs[:SHOWN], first[same], second[same], strict=False)]
+    text = f"{_plural(len(pairs), 'edge is', 'edges are')} passed twice in the same direction: "
+    text += listed(shown + [""] * (len(pairs) - SHOWN))
+    elements = {"edges": pairs, "faces": np.unique(np.r_[first[same], second[same]])}
+    if conflicts:
+        return InvalidMeshError(
+            f"{text}; no choice of orientations agrees (the surface is one-sided, like a Moebius strip): "
+            "cut it along a path, or keep the arrays",
+            reason="nonorientable",
+            elements=elements,
+        )
+    elements["reverse"] = _to_reverse(parent, turned)
+    return InvalidMeshError(
+        f"{text}; the faces are not oriented alike: reversing {_plural(len(elements['reverse']), 'face')} "
+        f"({listed(elements['reverse'])}) would do, they are in error.elements['reverse']",
+        reason="inconsistent_orientation",
+        elements=elements,
+    )
+
+
+@kernel
+def _orient(first: Any, second: Any, same: Any, parent: Any, turned: Any) -> int:
+    """Union-find with parity: ``turned[f]`` says whether `f` runs against its root. Returns the contradictions."""
+    conflicts = 0
+    for i in range(len(first)):
+        f, tf = first[i], 0
+        while parent[f] != f:
+            tf ^= turned[f]
+            g = parent[f]
+            turned[f] ^= turned[g]  # halve the path
+            parent[f] = parent[g]
+            tf ^= turned[g] if parent[g] != g else 0
+            f = parent[g]
+        g, tg = second[i], 0
+        while parent[g] != g:
+            tg ^= turned[g]
+            g = parent[g]
+        if f != g:
+            parent[g] = f
+            turned[g] = tf ^ tg ^ same[i]
+        elif tf ^ tg != same[i]:
+            conflicts += 1
+    for f in range(len(parent)):
+        g, t = parent[f], turned[f]
+        while parent[g] != g:
+            t ^= turned[g]
+            g = parent[g]
+        parent[f], turned[f] = g, t
+    return conflicts
+
+
+def _to_reverse(parent: Ints, turned: Ints) -> Ints:
+    """The smaller side of each component."""
+    n = np.bincount(parent, minlength=len(parent))
+    against = np.bincount(parent, weights=turned, minlength=len(parent))
+    return np.flatnonzero((2 * against[parent] > n[parent]) != turned.astype(bool))
+
+
+# ----------------------------------------------------------------------------------------------------------- vertices
+
+
+def _crowded_vertices(faces: FaceList, origin: Ints, target: Ints, following: Ints) -> InvalidMeshError:
+    """Vertices where a closed fan meets anything else."""
+    n = len(origin)
+    before = np.empty(n, dtype=np.int64)
+    before[following] = np.arange(n)
+    key = origin * max(faces.n_vertices, 1) + target
+    order = np.argsort(key, kind="stable")
+    twin_key = origin * max(faces.n_vertices, 1) + origin[before]  # ccw: the corner that goes on to the vertex before
+    place = np.minimum(np.searchsorted(key[order], twin_key), n - 1)
+    ccw = np.where(key[order[place]] == twin_key, order[place], -1)
+    fan, is_open = _fans(ccw)
+    roots = np.flatnonzero(fan == np.arange(n))
+    n_fans = np.bincount(origin[roots], minlength=faces.n_vertices)
+    n_closed = np.bincount(origin[roots[~is_open[roots]]], minlength=faces.n_vertices)
+    bad = np.flatnonzero((n_fans > 1) & (n_closed > 0))
+    shown = [f"{v} ({n_fans[v]} fans, {n_closed[v]} closed)" for v in bad[:SHOWN]] + [""] * (len(bad) - SHOWN)
+    face_of = np.repeat(np.arange(faces.n_faces), np.diff(faces.begins()))
+    return InvalidMeshError(
+        f"{_plural(len(bad), 'vertex joins', 'vertices join')} a closed fan of faces to something else: "
+        f"{listed(shown)}; give each fan a vertex of its own",
+        reason="nonmanifold_vertex",
+        elements={"vertices": bad, "faces": np.unique(face_of[np.isin(origin, bad)])},
+    )
+
+
+def _fans(ccw: Ints) -> tuple[Ints, NDArray[np.bool_]]:
+    """Name each fan by its lowest corner, by doubling the steps: O(n log n)."""
+    n = len(ccw)
+    lowest, ahead = np.arange(n), np.where(ccw < 0, np.arange(n), ccw)
+    is_open = ccw < 0
+    behind = np.arange(n)
+    behind[ccw[ccw >= 0]] = np.flatnonzero(ccw >= 0)
+    for _ in range(max(1, int(n).bit_length())):
+        lowest = np.minimum(lowest, np.minimum(lowest[ahead], lowest[behind]))
+        is_open = is_open | is_open[ahead] | is_open[behind]
+        ahead, behind = ahead[ahead], behind[behind]
+    return lowest, is_open
+
+
+# -------------------------------------------------------------------------------------------------------------- twins
+
+
+def explain_twins(faces: FaceList, twins: Ints) -> InvalidMeshError:
+    """The error for a face list whose explicit twins construction refused."""
+    corners, begins = faces.corners, faces.begins()
+    face_of = np.repeat(np.arange(faces.n_faces), np.diff(begins))
+    for question in (_out_of_range, _too_small):
+        error = question(faces, corners, begins, face_of)
+        if error is not None:
+            return error
+    n = len(corners)
+    wild = (twins < -1) | (twins >= n) | (twins == np.arange(n))
+    partner = np.where(wild | (twins < 0), 0, twins)
+    apart = (twins >= 0) & ~wild & (twins[partner] != np.arange(n))
+    crossed = (twins >= 0) & ~wild & ~apart & (corners[partner] != corners[_following(begins)])
+    for bad, what in (
+        (wild, "no corner, or the corner itself"),
+        (apart, "a corner whose twin is another one"),
+        (crossed, "a corner that does not start where this one's halfedge ends"),
+    ):
+        if bad.any():
+            at = np.flatnonzero(bad)
+            return InvalidMeshError(
+                f"twins: {_plural(len(at), 'corner names', 'corners name')} as twin {what}: {listed(at, 'corner ')}; "
+                "twins[c] is the corner whose halfedge runs along the same edge the other way, -1 at a boundary",
+                reason="bad_twins",
+                elements={"corners": at, "faces": np.unique(face_of[at])},
+            )
+    return InvalidMeshError("twins: the corners at a vertex form several fans, one of them closed", reason="bad_twins")

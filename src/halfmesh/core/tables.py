@@ -1,0 +1,124 @@
+"""Adjacency in bulk: one flat array of indices and one of offsets, counter-clockwise.
+
+Row `i` belongs to slot `i`; rows of deleted elements are empty. Each table is filled in two passes over its elements
+(how many, then which), so nothing has to grow.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from halfmesh._jit import kernel
+from halfmesh.core.circulation import face_halfedges, outgoing
+from halfmesh.core.navigation import face_of, opposite_face_of, target_of
+from halfmesh.core.topology import DELETED, Topology
+
+__all__ = [
+    "corner_halfedges",
+    "edge_faces",
+    "edge_vertices",
+    "face_degrees",
+    "face_neighbors",
+    "face_vertices",
+    "triangles",
+    "vertex_degrees",
+    "vertex_faces",
+    "vertex_neighbors",
+]
+
+Ints = NDArray[np.int32]
+Table = tuple[Ints, Ints]
+
+
+def vertex_degrees(t: Topology) -> Ints:
+    """Edges at each vertex; a loop edge counts twice."""
+    return np.bincount(t.origin[t.next >= 0], minlength=len(t.vertex_halfedge)).astype(np.int32)
+
+
+def face_degrees(t: Topology) -> Ints:
+    """Corners of each face."""
+    return np.bincount(t.face[(t.next >= 0) & (t.face >= 0)], minlength=len(t.face_halfedge)).astype(np.int32)
+
+
+def corner_halfedges(t: Topology) -> Table:
+    """The halfedges of each face, from its first corner: (halfedges, offsets)."""
+    return _filled(t, face_degrees(t), _fill_face_halfedges)
+
+
+def face_vertices(t: Topology) -> Table:
+    """The vertices of each face, as they were listed."""
+    halfedges, offsets = corner_halfedges(t)
+    return t.origin[halfedges], offsets
+
+
+def vertex_neighbors(t: Topology) -> Table:
+    """The ring of each vertex, counter-clockwise."""
+    ring, offsets = _filled(t, vertex_degrees(t), _fill_rings)
+    return target_of(t, ring), offsets
+
+
+def vertex_faces(t: Topology) -> Table:
+    """The faces around each vertex, counter-clockwise; gaps are left out."""
+    ring, offsets = _filled(t, vertex_degrees(t), _fill_rings)
+    return _without_gaps(face_of(t, ring), offsets)
+
+
+def face_neighbors(t: Topology) -> Table:
+    """The faces across the edges of each face; boundary edges are left out."""
+    halfedges, offsets = corner_halfedges(t)
+    return _without_gaps(opposite_face_of(t, halfedges), offsets)
+
+
+def edge_vertices(t: Topology) -> Ints:
+    """The two ends of each edge, shape (n, 2); -1 for deleted edges."""
+    return np.where((t.next >= 0).reshape(-1, 2), t.origin.reshape(-1, 2), -1)
+
+
+def edge_faces(t: Topology) -> Ints:
+    """The faces left and right of each edge, shape (n, 2); -1 where there is none."""
+    return np.where((t.next >= 0).reshape(-1, 2), t.face.reshape(-1, 2), -1)
+
+
+def triangles(t: Topology) -> Ints:
+    """The corners of the living faces, shape (n, 3), of a mesh that has only triangles."""
+    first = t.face_halfedge[t.face_halfedge != DELETED]
+    second = t.next[first]
+    return np.stack([t.origin[first], t.origin[second], t.origin[t.next[second]]], axis=1)
+
+
+def _filled(t: Topology, sizes: Ints, fill: Callable[..., Any]) -> Table:
+    offsets = np.zeros(len(sizes) + 1, dtype=np.int32)
+    np.cumsum(sizes, out=offsets[1:])
+    halfedges = np.empty(max(int(offsets[-1]), 1), dtype=np.int32)
+    fill.at(len(halfedges))(t, halfedges)  # type: ignore[attr-defined]
+    return halfedges[: offsets[-1]], offsets
+
+
+@kernel
+def _fill_rings(t: Any, halfedges: Any) -> None:
+    place = 0
+    for v in range(t.counts[0]):
+        for h in outgoing(t, v):
+            halfedges[place] = h
+            place += 1
+
+
+@kernel
+def _fill_face_halfedges(t: Any, halfedges: Any) -> None:
+    place = 0
+    for f in range(t.counts[2]):
+        if t.face_halfedge[f] >= 0:
+            for h in face_halfedges(t, f):
+                halfedges[place] = h
+                place += 1
+
+
+def _without_gaps(faces: Ints, offsets: Ints) -> Table:
+    present = faces >= 0
+    counts = np.zeros(len(faces) + 1, dtype=np.int32)
+    np.cumsum(present, out=counts[1:])
+    return faces[present], counts[offsets]

@@ -1,0 +1,195 @@
+"""The columns: everything that is stored of a mesh's connectivity, and their growth.
+
+====================  ==========  ===========================================================================
+column                one per     holds
+====================  ==========  ===========================================================================
+``next``, ``prev``    halfedge    the halfedge after and before, around the same face or the same boundary loop
+``origin``            halfedge    the vertex it leaves
+``face``              halfedge    the face on its left; -1 outside
+``vertex_halfedge``   vertex      a halfedge that leaves it, an exterior one if there is any; -1 if isolated
+``face_halfedge``     face        a halfedge of it
+====================  ==========  ===========================================================================
+
+All are int32. An edge `e` *is* the pair of halfedges ``2e`` and ``2e + 1``, so that twin and edge are arithmetic and
+cannot be wrong. Columns may be longer than what is in use; the ``counts`` say how much is.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from halfmesh import _jit
+
+__all__ = [
+    "COLUMNS",
+    "DELETED",
+    "EDGE_SLOTS",
+    "FACE_SLOTS",
+    "LIMIT",
+    "N_DEAD_EDGES",
+    "N_DEAD_FACES",
+    "N_DEAD_VERTICES",
+    "N_EXTERIOR",
+    "REVISION",
+    "STORAGE",
+    "VERTEX_SLOTS",
+    "Arrays",
+    "Topology",
+    "empty_columns",
+]
+
+Ints = NDArray[np.int32]
+
+LIMIT = 2**31 - 2  # elements of a kind: indices are int32
+DELETED = -2  # in `next`, `vertex_halfedge`, `face_halfedge`: this slot's element was deleted
+
+# places in `counts`
+VERTEX_SLOTS, EDGE_SLOTS, FACE_SLOTS = 0, 1, 2  # slots in use, deleted elements included
+N_DEAD_VERTICES, N_DEAD_EDGES, N_DEAD_FACES = 3, 4, 5
+N_EXTERIOR = 6  # living halfedges without a face
+REVISION = 7  # raised by every topological change
+STORAGE = 8  # raised whenever a column is replaced by a larger one
+N_COUNTS = 9
+
+COLUMNS = ("next", "prev", "origin", "face", "vertex_halfedge", "face_halfedge", "counts")
+_CARRIER = _jit.declare_carrier("Topology", COLUMNS)
+
+
+class Arrays:
+    """The columns as NumPy arrays, at their full capacity: what the vectorised gear reads and the builders write."""
+
+    __slots__ = COLUMNS
+
+    next: Ints
+    prev: Ints
+    origin: Ints
+    face: Ints
+    vertex_halfedge: Ints
+    face_halfedge: Ints
+    counts: NDArray[np.int64]
+
+
+class Topology:
+    """The connectivity of a mesh, as the read-only arrays of the table above; kernels take it as ``t``.
+
+    The arrays are views without a copy. They are stale after the mesh has grown: take them afresh.
+    """
+
+    __slots__ = ("_arrays", "_proxy", "_storage", "_views")
+
+    def __init__(self, arrays: Arrays) -> None:
+        self._views = _jit.Views()
+        self._proxy: Any = None
+        self._adopt(arrays)
+
+    def _adopt(self, arrays: Arrays) -> None:
+        self._arrays = arrays
+        self._storage = int(arrays.counts[STORAGE])
+        for name in COLUMNS:
+            setattr(self._views, name, _jit.view(getattr(arrays, name)))
+
+    # -- the columns in use --------------------------------------------------------------------------------------
+
+    @property
+    def next(self) -> Ints:
+        return self._read_only("next", 2 * self._slots(EDGE_SLOTS))
+
+    @property
+    def prev(self) -> Ints:
+        return self._read_only("prev", 2 * self._slots(EDGE_SLOTS))
+
+    @property
+    def origin(self) -> Ints:
+        return self._read_only("origin", 2 * self._slots(EDGE_SLOTS))
+
+    @property
+    def face(self) -> Ints:
+        return self._read_only("face", 2 * self._slots(EDGE_SLOTS))
+
+    @property
+    def vertex_halfedge(self) -> Ints:
+        return self._read_only("vertex_halfedge", self._slots(VERTEX_SLOTS))
+
+    @property
+    def face_halfedge(self) -> Ints:
+        return self._read_only("face_halfedge", self._slots(FACE_SLOTS))
+
+    @property
+    def nbytes(self) -> int:
+        """Bytes of the columns in use: 16 a halfedge, 4 a vertex, 4 a face."""
+        return sum(getattr(self, name).nbytes for name in COLUMNS[:-1])
+
+    @property
+    def capacity_nbytes(self) -> int:
+        """Bytes that are held, the room for growth included."""
+        return sum(getattr(self._arrays, name).nbytes for name in COLUMNS)
+
+    def _slots(self, place: int) -> int:
+        return self._views.counts[place]  # type: ignore[attr-defined,no-any-return]
+
+    def _read_only(self, name: str, size: int) -> Ints:
+        column: Ints = getattr(self._arrays, name)[:size]
+        column.flags.writeable = False
+        return column
+
+    def copy(self) -> Topology:
+        """A copy with no spare room. Complexity: O(n)."""
+        arrays = Arrays()
+        for name in COLUMNS[:-1]:
+            setattr(arrays, name, _with_room(getattr(self, name).copy()))
+        arrays.counts = self._arrays.counts.copy()
+        return Topology(arrays)
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {name: np.array(getattr(self, name, self._arrays.counts)) for name in COLUMNS}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        arrays = Arrays()
+        for name in COLUMNS:
+            setattr(arrays, name, _with_room(state[name]))
+        self.__init__(arrays)  # type: ignore[misc]
+
+    def __repr__(self) -> str:
+        return f"<Topology: {self._slots(VERTEX_SLOTS)} vertices, {self._slots(EDGE_SLOTS)} edges, {self._slots(FACE_SLOTS)} faces>"
+
+    # -- a carrier -----------------------------------------------------------------------------------------------
+
+    def __views__(self) -> Any:
+        return self._views
+
+    def __arrays__(self) -> Arrays:
+        return self._arrays
+
+    def __compiled__(self) -> Any:
+        if self._proxy is None:
+            self._proxy = _CARRIER.make(*(getattr(self._arrays, name) for name in COLUMNS))
+        return self._proxy
+
+    def __refresh__(self) -> None:
+        if self._slots(STORAGE) != self._storage:
+            arrays = Arrays()
+            for name, column in zip(COLUMNS, _CARRIER.take(self._proxy), strict=True):
+                setattr(arrays, name, column)
+            self._adopt(arrays)
+
+
+def empty_columns(n_vertices: int, n_edges: int, n_faces: int) -> Arrays:
+    """Columns of these sizes with their counts set and their contents not."""
+    arrays = Arrays()
+    for name in ("next", "prev", "origin", "face"):
+        setattr(arrays, name, np.empty(max(2 * n_edges, 2), dtype=np.int32))
+    arrays.vertex_halfedge = np.empty(max(n_vertices, 1), dtype=np.int32)
+    arrays.face_halfedge = np.empty(max(n_faces, 1), dtype=np.int32)
+    arrays.counts = np.zeros(N_COUNTS, dtype=np.int64)
+    arrays.counts[:3] = n_vertices, n_edges, n_faces
+    if n_edges == 0:  # rules that are branch-free may look at halfedge 0
+        arrays.next[:] = arrays.prev[:] = arrays.origin[:] = arrays.face[:] = -1
+    return arrays
+
+
+def _with_room(column: NDArray[Any]) -> NDArray[Any]:
+    """A column is never empty: the branch-free rules may look at its first element."""
+    return column if len(column) else np.full(2, -1, dtype=column.dtype)
