@@ -1,0 +1,9 @@
+"""The object you hold: :class:`Mesh`, its handles and its attributes."""
+
+from halfmesh.mesh.attributes import AttributeTable, Column
+from halfmesh.mesh.collections import Collection
+from halfmesh.mesh.elements import Edge, Element, Face, Halfedge, Vertex
+from halfmesh.mesh.mesh import Mesh
+from halfmesh.mesh.summary import Summary
+
+__all__ = ["AttributeTable", "Collection", "Column", "Edge", "Element", "Face", "Halfedge", "Mesh", "Summary", "Vertex"]

@@ -1,0 +1,81 @@
+"""``mesh.vertices``, ``mesh.halfedges``, ``mesh.edges``, ``mesh.faces``: one class, four kinds."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, Any, Generic, TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from halfmesh.core.topology import DELETED
+from halfmesh.errors import ElementError, StaleElementError
+from halfmesh.mesh.elements import Element
+
+if TYPE_CHECKING:
+    from halfmesh.mesh.mesh import Mesh
+
+__all__ = ["Collection"]
+
+E = TypeVar("E", bound=Element)
+
+_PER_SLOT = {"vertex": 1, "halfedge": 1, "edge": 2, "face": 1}  # places in the marked column
+
+
+class Collection(Generic[E]):
+    """The living elements of one kind: iterate, ``len``, ``[index]``, ``in``.
+
+    Indices count slots, so that an element keeps its index when others are deleted.
+    """
+
+    __slots__ = ("_kind", "_mesh")
+
+    def __init__(self, mesh: Mesh, kind: type[E]) -> None:
+        self._mesh = mesh
+        self._kind = kind
+
+    @property
+    def indices(self) -> NDArray[np.int64]:
+        """The indices of the living elements, ascending."""
+        marks = getattr(self._mesh.topology, self._kind.column)[:: _PER_SLOT[self._kind.kind]]
+        return np.flatnonzero(marks != DELETED)
+
+    def __len__(self) -> int:
+        n: int = getattr(self._mesh, f"n_{'vertices' if self._kind.kind == 'vertex' else self._kind.kind + 's'}")
+        return n
+
+    def __iter__(self) -> Iterator[E]:
+        for i in self.indices.tolist():
+            yield self._kind(self._mesh, i)
+
+    def __getitem__(self, index: int) -> E:
+        return self._kind(self._mesh, self.resolve(index))
+
+    def __contains__(self, element: object) -> bool:
+        try:
+            self.resolve(element)
+        except (ElementError, StaleElementError):
+            return False
+        return True
+
+    def resolve(self, element: Any) -> int:
+        """The index of a handle or an int; raises unless it names a living element of this kind and mesh."""
+        name = self._kind.kind
+        if isinstance(element, Element):
+            if not isinstance(element, self._kind):
+                raise ElementError(f"expected a {name}, got {element!r}")
+            if element._t is not self._mesh.topology.__views__():
+                element._check()
+                raise ElementError(f"{element!r} belongs to another mesh")
+            element._check()
+            return element.index
+        if isinstance(element, bool | np.bool_) or not isinstance(element, int | np.integer):
+            raise ElementError(f"expected a {name} or its index, got {element!r}")
+        slots = len(getattr(self._mesh.topology, self._kind.column)) // _PER_SLOT[name]
+        if not 0 <= element < slots:
+            raise ElementError(f"no {name} {element}: indices run from 0 to {slots - 1}" if slots else f"there are no {name}s")
+        self._kind(self._mesh, int(element))._check()
+        return int(element)
+
+    def __repr__(self) -> str:
+        return f"<{len(self)} {self._kind.kind} handles of {self._mesh!r}>"

@@ -1,0 +1,366 @@
+"""Handles: a vertex, halfedge, edge or face that you can hold.
+
+A handle is a name, not the element: as cheap as a pair of words, equal to every other handle of the same element.
+Each step delegates to one rule of `core.navigation`, interpreted over memoryviews: calling compiled code for a single
+step would cost ten times the step itself.
+
+A step on a deleted element raises :class:`StaleElementError`, at no cost in the good case: all columns of a deleted
+element hold a negative mark, and when indices move, the columns that old handles look at are replaced by ones that
+refuse.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator
+from typing import TYPE_CHECKING, Any, ClassVar, Generic, NoReturn, TypeVar, overload
+
+from halfmesh.core import circulation, navigation
+from halfmesh.core.topology import DELETED
+from halfmesh.errors import InvalidMeshError, StaleElementError
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from halfmesh.mesh.mesh import Mesh
+
+__all__ = ["Edge", "Element", "Face", "Halfedge", "Vertex"]
+
+R = TypeVar("R")
+E = TypeVar("E", bound="Element")
+
+_new: Any = object.__new__
+
+
+class Element:
+    """What all handles share: an index, and the mesh that it counts in."""
+
+    __slots__ = ("_t", "index")
+
+    kind: ClassVar[str]
+    column: ClassVar[str]  # whose mark says that an element of this kind was deleted
+    index: int
+    _t: Any  # the interpreted carrier of the mesh
+
+    def __init__(self, mesh: Mesh, index: int) -> None:
+        self._t = mesh.topology.__views__()
+        self.index = index
+
+    @property
+    def mesh(self) -> Mesh:
+        """The mesh that the element belongs to."""
+        return self._t.mesh  # type: ignore[no-any-return]
+
+    @property
+    def is_alive(self) -> bool:
+        """Whether the element still exists; every other word raises if not."""
+        try:
+            return bool(getattr(self._t, self.column)[self._slot()] != DELETED)
+        except StaleElementError:
+            return False
+
+    def _slot(self) -> int:
+        """The element's place in its column."""
+        return self.index
+
+    def _check(self) -> None:
+        if not self.is_alive:
+            self._stale()
+
+    def _stale(self) -> NoReturn:
+        raise StaleElementError(f"{self.kind} {self.index} was deleted, or its index moved when the mesh was compacted")
+
+    def _absent(self, found: int) -> None:
+        """No element there (-1), or no element here (the mark)."""
+        if found != -1:
+            self._stale()
+
+    def _walk(self, circulator: Any, kind: type[E]) -> Iterator[E]:
+        """Handles along a circulator; a corrupt mesh raises instead of walking forever."""
+        self._check()
+        t = self._t
+        limit = 2 * t.counts[1]
+        for n, i in enumerate(circulator.plain(t, self.index)):
+            if n > limit:
+                raise InvalidMeshError(f"the walk around {self.kind} {self.index} does not close; see mesh.check()")
+            yield _made(kind, t, i)
+
+    def _count(self, circulator: Any) -> int:
+        return sum(1 for _ in self._walk(circulator, type(self)))
+
+    def __index__(self) -> int:
+        return self.index
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Element):
+            return NotImplemented
+        return type(self) is type(other) and self.index == other.index and self._t is other._t
+
+    def __lt__(self, other: Element) -> bool:
+        if type(self) is not type(other) or self._t is not other._t:
+            return NotImplemented
+        return self.index < other.index
+
+    def __hash__(self) -> int:
+        return hash((self.kind, self.index))
+
+    def __repr__(self) -> str:
+        return f"{type(self).__name__}({self.index})"
+
+    def __reduce__(self) -> NoReturn:
+        raise TypeError("a handle means nothing without its mesh; pickle the mesh and keep handle.index")
+
+
+def _made(kind: type[E], t: Any, index: int) -> E:
+    made: E = _new(kind)
+    made._t = t
+    made.index = index
+    return made
+
+
+class step(Generic[R]):  # noqa: N801 - used as a decorator
+    """A property that follows one rule; `bind` writes the fast getter once the handle classes exist."""
+
+    def __init__(self, rule: Any, kind: str, *, reads: bool = True) -> None:
+        self.rule, self.kind, self.reads = rule.plain, kind, reads
+
+    def __call__(self, function: Callable[[Any], R]) -> step[R]:
+        self.__doc__ = function.__doc__
+        return self
+
+    @overload
+    def __get__(self, instance: None, owner: type) -> step[R]: ...
+    @overload
+    def __get__(self, instance: Element, owner: type) -> R: ...
+    def __get__(self, instance: Element | None, owner: type) -> step[R] | R:
+        raise AssertionError("replaced by a property when the module is loaded")
+
+    def bind(self, kinds: dict[str, type[Element]]) -> property:
+        rule, kind, new = self.rule, kinds[self.kind], _new
+
+        def get(self: Any) -> Any:
+            t = self._t
+            index = rule(t, self.index)
+            if index < 0:
+                return self._absent(index)
+            made = new(kind)
+            made._t = t
+            made.index = index
+            return made
+
+        def get_checked(self: Any) -> Any:  # the rule is arithmetic, it sees no mark
+            if self._t.next[self._slot()] < 0:
+                self._stale()
+            return get(self)
+
+        return property(get if self.reads else get_checked, doc=self.__doc__)
+
+
+class Vertex(Element):
+    """A vertex: a point where edges meet."""
+
+    __slots__ = ()
+    kind = "vertex"
+    column = "vertex_halfedge"
+
+    @step(navigation.halfedge_of_vertex, "halfedge")
+    def halfedge(self) -> Halfedge | None:
+        """A halfedge that leaves the vertex, an exterior one if there is any; None if it is isolated."""
+        raise NotImplementedError
+
+    @property
+    def point(self) -> NDArray[np.float64]:
+        """Its position, shape (3,): a view, writing into it moves the vertex."""
+        self._check()
+        row: NDArray[np.float64] = self.mesh.points[self.index]
+        return row
+
+    @property
+    def degree(self) -> int:
+        """Number of edges; a loop edge counts twice. Complexity: O(degree)."""
+        return self._count(circulation.outgoing)
+
+    @property
+    def is_boundary(self) -> bool:
+        """Whether it touches a gap. An isolated vertex does not. Complexity: O(1)."""
+        self._check()
+        return bool(navigation.is_boundary_vertex.plain(self._t, self.index))
+
+    @property
+    def is_isolated(self) -> bool:
+        """Whether no edge touches it."""
+        self._check()
+        return bool(navigation.is_isolated.plain(self._t, self.index))
+
+    def outgoing(self) -> Iterator[Halfedge]:
+        """The halfedges that leave it, counter-clockwise; at a boundary vertex the exterior one comes last."""
+        return self._walk(circulation.outgoing, Halfedge)
+
+    def incoming(self) -> Iterator[Halfedge]:
+        """The halfedges that arrive at it, counter-clockwise."""
+        return self._walk(circulation.incoming, Halfedge)
+
+    def neighbors(self) -> Iterator[Vertex]:
+        """The other ends of its edges, counter-clockwise; one that is joined twice comes twice."""
+        return self._walk(circulation.neighbors, Vertex)
+
+    def edges(self) -> Iterator[Edge]:
+        """Its edges, counter-clockwise."""
+        return self._walk(circulation.edges_around, Edge)
+
+    def faces(self) -> Iterator[Face]:
+        """The faces around it, counter-clockwise; gaps are left out."""
+        return self._walk(circulation.faces_around, Face)
+
+
+class Halfedge(Element):
+    """One of the two directed sides of an edge."""
+
+    __slots__ = ()
+    kind = "halfedge"
+    column = "next"
+
+    @step(navigation.twin_of, "halfedge", reads=False)
+    def twin(self) -> Halfedge:
+        """The other halfedge of the same edge."""
+        raise NotImplementedError
+
+    @step(navigation.next_of, "halfedge")
+    def next(self) -> Halfedge:
+        """The one after it around its face or boundary loop."""
+        raise NotImplementedError
+
+    @step(navigation.prev_of, "halfedge")
+    def prev(self) -> Halfedge:
+        """The one before it around its face or boundary loop."""
+        raise NotImplementedError
+
+    @step(navigation.ccw_of, "halfedge")
+    def ccw(self) -> Halfedge:
+        """The next one counter-clockwise around its origin: twin(prev)."""
+        raise NotImplementedError
+
+    @step(navigation.cw_of, "halfedge")
+    def cw(self) -> Halfedge:
+        """The next one clockwise around its origin: next(twin)."""
+        raise NotImplementedError
+
+    @step(navigation.origin_of, "vertex")
+    def origin(self) -> Vertex:
+        """The vertex that it leaves."""
+        raise NotImplementedError
+
+    @step(navigation.target_of, "vertex")
+    def target(self) -> Vertex:
+        """The vertex that it arrives at."""
+        raise NotImplementedError
+
+    @step(navigation.face_of, "face")
+    def face(self) -> Face | None:
+        """The face on its left; None if it is exterior."""
+        raise NotImplementedError
+
+    @step(navigation.edge_of, "edge", reads=False)
+    def edge(self) -> Edge:
+        """The edge that it is a side of."""
+        raise NotImplementedError
+
+    @property
+    def is_exterior(self) -> bool:
+        """Whether there is no face on its left."""
+        self._check()
+        return bool(navigation.is_exterior.plain(self._t, self.index))
+
+    @property
+    def is_boundary(self) -> bool:
+        """Whether it or its twin is exterior."""
+        return self.edge.is_boundary
+
+    @property
+    def length(self) -> float:
+        """Distance between its ends."""
+        return self.edge.length
+
+
+class Edge(Element):
+    """An edge: two halfedges that run against each other."""
+
+    __slots__ = ()
+    kind = "edge"
+    column = "next"
+
+    def _slot(self) -> int:
+        return 2 * self.index
+
+    @step(navigation.halfedge_of_edge, "halfedge", reads=False)
+    def halfedge(self) -> Halfedge:
+        """Its first halfedge, ``2 * index``."""
+        raise NotImplementedError
+
+    @property
+    def vertices(self) -> tuple[Vertex, Vertex]:
+        """Its two ends: origin and target of its halfedge."""
+        h = self.halfedge
+        return h.origin, h.target
+
+    @property
+    def faces(self) -> tuple[Face | None, Face | None]:
+        """The faces left and right of its halfedge; None where there is none."""
+        h = self.halfedge
+        return h.face, h.twin.face
+
+    @property
+    def is_boundary(self) -> bool:
+        """Whether a face is missing on one side, or on both."""
+        self._check()
+        return bool(navigation.is_boundary_edge.plain(self._t, self.index))
+
+    @property
+    def length(self) -> float:
+        """Distance between its ends."""
+        a, b = self.vertices
+        points = self.mesh.points
+        return math.dist(points[a.index], points[b.index])
+
+
+class Face(Element):
+    """A face: a polygon of any number of sides, counter-clockwise."""
+
+    __slots__ = ()
+    kind = "face"
+    column = "face_halfedge"
+
+    @step(navigation.halfedge_of_face, "halfedge")
+    def halfedge(self) -> Halfedge:
+        """One of its halfedges: that of the first listed corner, in a mesh made from a face list."""
+        raise NotImplementedError
+
+    @property
+    def degree(self) -> int:
+        """Number of corners. Complexity: O(degree)."""
+        return self._count(circulation.face_halfedges)
+
+    def vertices(self) -> Iterator[Vertex]:
+        """Its corners, counter-clockwise, as they were listed."""
+        return self._walk(circulation.face_vertices, Vertex)
+
+    def halfedges(self) -> Iterator[Halfedge]:
+        """Its halfedges, counter-clockwise."""
+        return self._walk(circulation.face_halfedges, Halfedge)
+
+    def edges(self) -> Iterator[Edge]:
+        """Its edges, counter-clockwise."""
+        return self._walk(circulation.face_edges, Edge)
+
+    def neighbors(self) -> Iterator[Face]:
+        """The faces across its edges, counter-clockwise; boundary edges are left out."""
+        return self._walk(circulation.face_neighbors, Face)
+
+
+_KINDS: dict[str, type[Element]] = {"vertex": Vertex, "halfedge": Halfedge, "edge": Edge, "face": Face}
+
+for _kind in _KINDS.values():
+    for _name, _word in list(vars(_kind).items()):
+        if isinstance(_word, step):
+            setattr(_kind, _name, _word.bind(_KINDS))

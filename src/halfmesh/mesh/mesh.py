@@ -1,0 +1,412 @@
+"""The object you hold: connectivity, points and named attributes, with the questions they answer.
+
+Nothing is computed here: rules and loops live in `core`, and every method is a few lines of delegation.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from typing import Any, TypeVar
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from halfmesh.core import counting, invariants, tables
+from halfmesh.core.construction import Defective, construct
+from halfmesh.core.diagnosis import explain, explain_twins
+from halfmesh.core.facelist import FaceList, as_face_list, as_indices
+from halfmesh.core.search import find_halfedge
+from halfmesh.core.topology import (
+    EDGE_SLOTS,
+    FACE_SLOTS,
+    N_DEAD_EDGES,
+    N_DEAD_FACES,
+    N_DEAD_VERTICES,
+    N_EXTERIOR,
+    REVISION,
+    VERTEX_SLOTS,
+    Topology,
+)
+from halfmesh.core.wire import with_wire
+from halfmesh.errors import InvalidMeshError, PreconditionError
+from halfmesh.mesh.attributes import AttributeTable
+from halfmesh.mesh.collections import Collection
+from halfmesh.mesh.elements import Edge, Face, Halfedge, Vertex
+from halfmesh.mesh.summary import Summary, summarize
+
+__all__ = ["Mesh"]
+
+Ints = NDArray[np.int32]
+Floats = NDArray[np.float64]
+R = TypeVar("R")
+
+
+class Mesh:
+    """A half-edge mesh of polygons of any degree, with wire and isolated vertices.
+
+    Parameters
+    ----------
+    faces : (n, k) array_like of int, list of lists, or tuple (indices, offsets)
+        The vertices of each face, counter-clockwise, counted from 0. Any integer dtype and memory order; ragged
+        input as a tuple of two 1-D integer arrays. Nothing is merged, dropped or reordered: face `f` is row `f`.
+    points : (n, 3) or (n, 2) array_like of float, optional
+        Positions of the vertices, copied; 2-D points get z = 0. Zeros if not given.
+    n_vertices : int, optional
+        Number of vertices, where there are no points and some vertices are in no face.
+    twins : array_like of int, optional
+        For each corner, the corner whose halfedge runs along the same edge the other way, -1 at a boundary; in the
+        shape of `faces`, or flat. Needed only where the vertices don't say it: parallel edges and loop edges.
+    edges : (n, 2) array_like of int, optional
+        Wire: edges without faces.
+
+    Raises
+    ------
+    InvalidMeshError
+        The faces can't be held. ``error.reason`` names the defect and ``error.elements`` all that have it.
+
+    Notes
+    -----
+    O(corners + vertices) for any input. Held are faces that meet in a vertex only, faces that pass a vertex twice,
+    slits, several components. Refused are an edge with three faces, faces that are not oriented alike, a vertex
+    where a closed fan of faces meets anything else.
+
+    Examples
+    --------
+    >>> import halfmesh as hm
+    >>> mesh = hm.Mesh([[0, 1, 2, 3], [1, 4, 2]], points=[[0, 0], [1, 0], [1, 1], [0, 1], [2, 0.5]])
+    >>> mesh
+    <Mesh: 5 vertices, 6 edges, 2 faces, with boundary>
+    >>> h = mesh.find_halfedge(1, 2)
+    >>> h.face, h.twin.face, h.next.target
+    (Face(0), Face(1), Vertex(3))
+    >>> [v.index for v in mesh.vertices[1].neighbors()]
+    [4, 2, 0]
+    """
+
+    def __init__(
+        self,
+        faces: Any,
+        points: ArrayLike | None = None,
+        *,
+        n_vertices: int | None = None,
+        twins: ArrayLike | None = None,
+        edges: ArrayLike | None = None,
+    ) -> None:
+        started = time.perf_counter()
+        positions = None if points is None else _as_points(points)
+        wire = None if edges is None else as_indices(edges, "edges", 2)
+        if positions is None and n_vertices is None and wire is not None and not len(faces):
+            n_vertices = int(wire.max()) + 1 if len(wire) else 0
+        face_list = as_face_list(faces, n_vertices, None if positions is None else len(positions))
+        topology = _topology(face_list, twins)
+        if wire is not None and len(wire):
+            topology = with_wire(topology, wire)
+        self._hold(topology)
+        self.has_points = positions is not None
+        if positions is None:
+            positions = np.zeros((face_list.n_vertices, 3))
+        self.vertex_data["points"] = positions
+        self.build_seconds = time.perf_counter() - started
+
+    def _hold(self, topology: Topology) -> None:
+        self._topology = topology
+        self._t = topology.__views__()
+        self._t.mesh = self
+        self._cache: dict[str, tuple[int, Any]] = {}
+        self.vertices = Collection(self, Vertex)
+        self.halfedges = Collection(self, Halfedge)
+        self.edges = Collection(self, Edge)
+        self.faces = Collection(self, Face)
+        counts = self._t.counts
+        self.vertex_data = AttributeTable("vertex", lambda: counts[VERTEX_SLOTS], required=("points",))
+        self.halfedge_data = AttributeTable("halfedge", lambda: 2 * counts[EDGE_SLOTS])
+        self.edge_data = AttributeTable("edge", lambda: counts[EDGE_SLOTS])
+        self.face_data = AttributeTable("face", lambda: counts[FACE_SLOTS])
+
+    # -- what is stored ------------------------------------------------------------------------------------------
+
+    @property
+    def points(self) -> Floats:
+        """Positions of the vertices, shape (n, 3), float64: a view, writing into it moves vertices."""
+        return self.vertex_data["points"]
+
+    @points.setter
+    def points(self, points: ArrayLike) -> None:
+        self.vertex_data["points"] = _as_points(points)
+        self.has_points = True
+
+    @property
+    def topology(self) -> Topology:
+        """The columns ``next prev origin face vertex_halfedge face_halfedge`` as read-only arrays, without a copy."""
+        return self._topology
+
+    @property
+    def revision(self) -> int:
+        """Increases with every change of the connectivity; writing into `points` is not one."""
+        return self._t.counts[REVISION]  # type: ignore[attr-defined,no-any-return]
+
+    # -- counts --------------------------------------------------------------------------------------------------
+
+    def _count(self, slots: int, dead: int) -> int:
+        counts = self._t.counts  # type: ignore[attr-defined]
+        return counts[slots] - counts[dead]  # type: ignore[no-any-return]
+
+    @property
+    def n_vertices(self) -> int:
+        """Number of vertices. O(1)."""
+        return self._count(VERTEX_SLOTS, N_DEAD_VERTICES)
+
+    @property
+    def n_edges(self) -> int:
+        """Number of edges. O(1)."""
+        return self._count(EDGE_SLOTS, N_DEAD_EDGES)
+
+    @property
+    def n_faces(self) -> int:
+        """Number of faces. O(1)."""
+        return self._count(FACE_SLOTS, N_DEAD_FACES)
+
+    @property
+    def n_halfedges(self) -> int:
+        """Number of halfedges, exterior ones included: twice the edges. O(1)."""
+        return 2 * self.n_edges
+
+    @property
+    def n_exterior_halfedges(self) -> int:
+        """Number of halfedges without a face. O(1)."""
+        return self._t.counts[N_EXTERIOR]  # type: ignore[attr-defined,no-any-return]
+
+    @property
+    def n_interior_halfedges(self) -> int:
+        """Number of halfedges with a face: the sum of the face degrees. O(1)."""
+        return self.n_halfedges - self.n_exterior_halfedges
+
+    @property
+    def n_interior_vertices(self) -> int:
+        """Number of vertices that faces close all around. O(n) after a change, then kept."""
+        return self._kept("kinds", counting.vertex_kinds)[0]
+
+    @property
+    def n_boundary_vertices(self) -> int:
+        """Number of vertices that touch a gap, those on wire included. O(n) after a change, then kept."""
+        return self._kept("kinds", counting.vertex_kinds)[1]
+
+    @property
+    def n_isolated_vertices(self) -> int:
+        """Number of vertices without an edge. O(n) after a change, then kept."""
+        return self._kept("kinds", counting.vertex_kinds)[2]
+
+    @property
+    def n_boundary_loops(self) -> int:
+        """Number of boundary loops. O(n) after a change, then kept."""
+        return len(self._kept("loops", counting.boundary_loops)[1]) - 1
+
+    @property
+    def n_connected_components(self) -> int:
+        """Number of connected components, isolated vertices among them. O(n) after a change, then kept."""
+        return len(self.components())
+
+    @property
+    def has_boundary(self) -> bool:
+        """Whether any halfedge is exterior. O(1)."""
+        return self.n_exterior_halfedges > 0
+
+    @property
+    def euler_characteristic(self) -> int:
+        """V - E + F. O(1). The sum over the components: see `components` for each."""
+        return self.n_vertices - self.n_edges + self.n_faces
+
+    @property
+    def genus(self) -> int:
+        """Handles, summed over the components with their holes capped. O(n) after a change, then kept."""
+        return int(self.components().genus.sum())
+
+    @property
+    def is_triangular(self) -> bool:
+        """Whether all faces are triangles. O(n) after a change, then kept."""
+        return bool(self._kept("triangular", lambda t: bool((tables.face_degrees(t)[t.face_halfedge >= 0] == 3).all())))
+
+    def components(self) -> counting.Components:
+        """The connected components: counts, Euler characteristic, genus and boundary loops of each.
+
+        Returns
+        -------
+        Components
+            With the component of each vertex. O(n) after a change, then kept.
+
+        Examples
+        --------
+        >>> import halfmesh as hm
+        >>> both = hm.Mesh([[0, 1, 2], [3, 4, 5, 6]], n_vertices=8)
+        >>> both.components().n_faces
+        array([1, 1, 0])
+        """
+        return self._kept("components", counting.components)
+
+    def summary(self) -> Summary:
+        """All the counts, topology, degrees, memory and building time; prints as a table. O(n)."""
+        return summarize(self)
+
+    def _kept(self, name: str, compute: Callable[[Topology], R]) -> R:
+        """A result that is computed again only after the connectivity has changed."""
+        revision, value = self._cache.get(name, (-1, None))
+        if revision != self.revision:
+            value = compute(self._topology)
+            self._cache[name] = (self.revision, value)
+        return value  # type: ignore[return-value]
+
+    # -- finding and walking ---------------------------------------------------------------------------------------
+
+    def find_halfedge(self, u: Vertex | int, v: Vertex | int) -> Halfedge | None:
+        """The halfedge from `u` to `v`, or None. Complexity: O(smaller degree).
+
+        Where edges are parallel, one of them.
+        """
+        h = find_halfedge.plain(self._t, self.vertices.resolve(u), self.vertices.resolve(v))
+        return None if h < 0 else Halfedge(self, h)
+
+    def boundary_loops(self) -> list[Ints]:
+        """The halfedges of each boundary loop, along next: a list of int32 arrays. O(n) after a change, then kept."""
+        halfedges, offsets = self._kept("loops", counting.boundary_loops)
+        return [loop.copy() for loop in np.split(halfedges, offsets[1:-1])] if len(offsets) > 1 else []
+
+    # -- arrays ----------------------------------------------------------------------------------------------------
+
+    def face_vertices(self) -> tuple[Ints, Ints]:
+        """The vertices of each face as (indices, offsets): the face list that made the mesh. O(n)."""
+        return tables.face_vertices(self._topology)
+
+    def face_neighbors(self) -> tuple[Ints, Ints]:
+        """The faces across the edges of each face as (indices, offsets); boundary edges are left out. O(n)."""
+        return tables.face_neighbors(self._topology)
+
+    def vertex_neighbors(self) -> tuple[Ints, Ints]:
+        """The ring of each vertex as (indices, offsets), counter-clockwise. O(n)."""
+        return tables.vertex_neighbors(self._topology)
+
+    def vertex_faces(self) -> tuple[Ints, Ints]:
+        """The faces around each vertex as (indices, offsets), counter-clockwise. O(n)."""
+        return tables.vertex_faces(self._topology)
+
+    def vertex_degrees(self) -> Ints:
+        """Number of edges at each vertex; a loop edge counts twice. O(n)."""
+        return tables.vertex_degrees(self._topology)
+
+    def face_degrees(self) -> Ints:
+        """Number of corners of each face. O(n)."""
+        return tables.face_degrees(self._topology)
+
+    def corner_halfedges(self) -> Ints:
+        """The halfedge of each corner, in the order of the face list: where corner data belong. O(n)."""
+        return tables.corner_halfedges(self._topology)[0]
+
+    def triangles(self) -> Ints:
+        """The vertices of the faces, shape (n, 3), of a triangle mesh; row `i` belongs to ``faces.indices[i]``.
+
+        Raises
+        ------
+        PreconditionError
+            A face is not a triangle.
+        """
+        if not self.is_triangular:
+            degrees = self.face_degrees()
+            f = int(np.flatnonzero((degrees != 3) & (self._topology.face_halfedge >= 0))[0])
+            raise PreconditionError(f"face {f} has {degrees[f]} corners; face_vertices() gives faces of any degree")
+        return tables.triangles(self._topology)
+
+    def edge_vertices(self) -> Ints:
+        """The two ends of each edge, shape (n, 2). O(n)."""
+        return tables.edge_vertices(self._topology)
+
+    def edge_faces(self) -> Ints:
+        """The faces left and right of each edge, shape (n, 2); -1 where there is none. O(n)."""
+        return tables.edge_faces(self._topology)
+
+    # -- the whole -------------------------------------------------------------------------------------------------
+
+    def check(self) -> None:
+        """Check every law of a valid mesh. O(n).
+
+        Raises
+        ------
+        InvalidMeshError
+            Naming the law and the elements that break it.
+        """
+        invariants.check(self._topology)
+
+    def copy(self) -> Mesh:
+        """An independent copy with its attributes. O(n)."""
+        made = object.__new__(type(self))
+        made._hold(self._topology.copy())
+        made.has_points, made.build_seconds = self.has_points, self.build_seconds
+        for name in _TABLES:
+            getattr(made, name)._copied_from(getattr(self, name))
+        return made
+
+    __copy__ = copy
+
+    def __deepcopy__(self, memo: dict[int, Any]) -> Mesh:
+        return self.copy()
+
+    def __getstate__(self) -> dict[str, Any]:
+        state: dict[str, Any] = {name: dict(getattr(self, name)) for name in _TABLES}
+        return state | {"topology": self._topology, "has_points": self.has_points, "build_seconds": self.build_seconds}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        self._hold(state["topology"])
+        self.has_points, self.build_seconds = state["has_points"], state["build_seconds"]
+        for name in _TABLES:
+            getattr(self, name)._restore(state[name])
+
+    def __repr__(self) -> str:
+        kind = "with boundary" if self.has_boundary else "closed"
+        return f"<Mesh: {self.n_vertices} vertices, {self.n_edges} edges, {self.n_faces} faces, {kind}>"
+
+    def _repr_html_(self) -> str:
+        return self.summary()._repr_html_()
+
+    # -- a carrier: kernels take a mesh as its topology --------------------------------------------------------------
+
+    def __views__(self) -> Any:
+        return self._t
+
+    def __arrays__(self) -> Any:
+        return self._topology.__arrays__()
+
+    def __compiled__(self) -> Any:
+        return self._topology.__compiled__()
+
+    def __refresh__(self) -> None:
+        self._topology.__refresh__()
+
+
+_TABLES = ("vertex_data", "halfedge_data", "edge_data", "face_data")
+
+
+def _topology(faces: FaceList, twins: ArrayLike | None) -> Topology:
+    given = None if twins is None else as_indices(twins, "twins").reshape(-1)
+    if given is not None and len(given) != faces.n_corners:
+        raise InvalidMeshError(f"twins has {len(given)} entries for {faces.n_corners} corners", reason="bad_twins")
+    try:
+        topology, _ = construct(faces, given)
+    except Defective:
+        raise (explain(faces) if given is None else explain_twins(faces, given)) from None
+    except OverflowError as error:
+        raise InvalidMeshError(str(error), reason="too_large") from None
+    if given is not None and len(invariants.one_ring_holds_all_of_a_vertex(topology)):
+        raise explain_twins(faces, given)
+    return topology
+
+
+def _as_points(points: ArrayLike) -> Floats:
+    array = np.asarray(points)
+    if array.size == 0 and array.ndim <= 2:
+        return np.zeros((0, 3))
+    if array.dtype.kind not in "iuf":
+        raise InvalidMeshError(f"points has dtype {array.dtype}; expected real numbers", reason="bad_points")
+    if array.ndim != 2 or array.shape[1] not in (2, 3):
+        raise InvalidMeshError(f"points has shape {array.shape}; expected (n, 3) or (n, 2)", reason="bad_points")
+    made = np.zeros((len(array), 3))
+    made[:, : array.shape[1]] = array
+    return made
