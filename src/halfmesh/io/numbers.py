@@ -1,0 +1,175 @@
+"""From decimal text to float64, with the bits that Python's ``float()`` gives.
+
+A decimal number is ``w * 10**e`` with an integer `w`. Where `w` and the power of ten are both exact in float64, one
+multiplication or division rounds once, and that is the answer. Everywhere else the product is formed in *double-double*
+(a sum of two float64, about 106 bits) and rounded; the rest says how far the next rounding boundary is, and if the
+boundary is nearer than the error bound, or the number is out of the ordinary (``nan``, ``inf``, exponents beyond 10**120),
+the kernel doesn't guess: it notes the place as *undecided* and Python decides with ``float()``.
+
+Only float64 and small ints are used, so that compiled and interpreted code do the very same arithmetic.
+
+Accepted is what ``float()`` accepts in ASCII, without underscores: ``1``, ``+.5``, ``2.``, ``1e-3``, ``nan``, ``-inf``,
+``Infinity``. Refused: hexadecimal, decimal commas, ``1_000``, ``1d5``, ``1.#IND``.
+"""
+
+from __future__ import annotations
+
+import functools
+import re
+from fractions import Fraction
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from halfmesh._jit import kernel
+
+__all__ = ["DECIMAL", "INTEGER", "UNDECIDED", "is_blank", "is_end", "number", "number_from_text", "powers_of_ten", "times"]
+
+INTEGER, DECIMAL, UNDECIDED = 0, 1, 2
+
+REACH = 120  # powers of ten in the table, both ways
+EXACT = 22  # 10**22 is the largest power of ten that float64 holds exactly
+FULL = 10**17  # once w is this large, one more digit is taken and no other: w < 10**18 fits in an int64
+INTEGERS = 2**53
+SPLITTER = 134217729.0  # 2**27 + 1 cuts a float64 into two halves of 26 bits
+ERROR = 2.0**-98  # of a product of two double-doubles, relative; the sum of all roundings is below 2**-102
+
+_NUMBER = re.compile(rb"[+-]?(?:(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?|nan|inf|infinity)\Z", re.IGNORECASE)
+
+
+@functools.cache
+def powers_of_ten() -> NDArray[np.float64]:
+    """``10**e`` for ``-REACH <= e <= REACH`` as pairs (high part, rest); flat, 2 * (2 * REACH + 1) numbers."""
+    table = np.empty(2 * (2 * REACH + 1))
+    for e in range(-REACH, REACH + 1):
+        exact = Fraction(10) ** e
+        high = float(exact)
+        table[2 * (e + REACH)] = high
+        table[2 * (e + REACH) + 1] = float(exact - Fraction(high))
+    return table
+
+
+def number_from_text(token: bytes) -> float | None:
+    """What ``float()`` makes of a token, None if it is not a number.
+
+    Examples
+    --------
+    >>> number_from_text(b"-1e400"), number_from_text(b"1_0"), number_from_text(b"0x1p3")
+    (-inf, None, None)
+    """
+    if _NUMBER.match(token) is None:
+        return None
+    return float(token)
+
+
+@kernel
+def is_blank(c: int) -> bool:
+    """Space, tab, vertical tab, form feed: what separates numbers within a line."""
+    return c == 32 or c == 9 or c == 11 or c == 12
+
+
+@kernel
+def is_end(c: int) -> bool:
+    """A token ends before white space and before a comment."""
+    return c == 32 or (9 <= c <= 13) or c == 35
+
+
+@kernel
+def times(a: float, a_rest: float, b: float, b_rest: float) -> tuple[float, float]:
+    """The product of two double-doubles, as one; Dekker's algorithm."""
+    product = a * b
+    cut = SPLITTER * a
+    a_high = cut - (cut - a)
+    a_low = a - a_high
+    cut = SPLITTER * b
+    b_high = cut - (cut - b)
+    b_low = b - b_high
+    rest = ((a_high * b_high - product) + a_high * b_low + a_low * b_high) + a_low * b_low
+    rest += a * b_rest + a_rest * b
+    high = product + rest
+    return high, rest - (high - product)
+
+
+@kernel
+def number(b: Any, i: int, end: int, powers: Any) -> tuple[float, int, int]:
+    """Read the number at ``b[i]``: its value, where the token ends, and INTEGER, DECIMAL or UNDECIDED."""
+    c = b[i]
+    negative = c == 45
+    if negative or c == 43:
+        i += 1
+    w = 0
+    e = 0
+    cut_off = False
+    start = i
+    while i < end:
+        d = b[i] - 48
+        if d < 0 or d > 9:
+            break
+        if w < FULL:
+            w = w * 10 + d
+        else:
+            e += 1
+            cut_off |= d != 0
+        i += 1
+    n_digits = i - start
+    kind = INTEGER
+    if i < end and b[i] == 46:
+        kind = DECIMAL
+        i += 1
+        start = i
+        while i < end:
+            d = b[i] - 48
+            if d < 0 or d > 9:
+                break
+            if w < FULL:
+                w = w * 10 + d
+                e -= 1
+            else:
+                cut_off |= d != 0
+            i += 1
+        n_digits += i - start
+    if n_digits > 0 and i < end and (b[i] | 32) == 101:
+        kind = DECIMAL
+        i += 1
+        down = i < end and b[i] == 45
+        if i < end and (down or b[i] == 43):
+            i += 1
+        start = i
+        exponent = 0
+        while i < end:
+            d = b[i] - 48
+            if d < 0 or d > 9:
+                break
+            if exponent < 100000:
+                exponent = exponent * 10 + d
+            i += 1
+        if i == start:
+            n_digits = 0
+        e += -exponent if down else exponent
+    if n_digits == 0 or (i < end and not is_end(b[i])):
+        while i < end and not is_end(b[i]):
+            i += 1
+        return 0.0, i, UNDECIDED
+    value = float(w)
+    if w == 0:
+        return (-value if negative else value), i, kind
+    if w <= INTEGERS and -EXACT <= e <= EXACT and not cut_off:
+        if e < 0:
+            value = value / powers[2 * (REACH - e)]
+        elif e > 0:
+            value = value * powers[2 * (REACH + e)]
+        return (-value if negative else value), i, kind
+    if e < -REACH or e > REACH:
+        return 0.0, i, UNDECIDED
+    rest = float(w - int(value))
+    power = powers[2 * (REACH + e)]
+    slack = 0.0
+    if cut_off:  # the number lies between w and w + 1
+        rest += 0.5
+        slack = 0.5 * power
+    value, rest = times(value, rest, power, powers[2 * (REACH + e) + 1])
+    slack += value * ERROR
+    if value + (rest + slack) != value or value + (rest - slack) != value:
+        return 0.0, i, UNDECIDED
+    return (-value if negative else value), i, kind

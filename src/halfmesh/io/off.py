@@ -1,0 +1,235 @@
+"""Reading OFF, the object file format of Geomview, in the forms that are met in the wild.
+
+The header is ``[ST][C][N][4][n]OFF`` (the letters in any order, or no keyword at all) and may share its line with the
+counts; comments and blank lines may stand anywhere; lines end with LF, CR LF or CR. A vertex is ``x y z [w] [normal]
+[colour] [texture]``, a face ``degree i0 i1 ... [colour]``.
+
+Text is read by lines, cut into parts that are read at once. If there are fewer lines than elements, it is read as a
+stream of tokens, in which a vertex may span lines or share one.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any, NoReturn
+
+import numpy as np
+from numpy.typing import NDArray
+
+from halfmesh._jit import parallel
+from halfmesh.io import off_kernels as k
+from halfmesh.io.data import Attributes, MeshData
+from halfmesh.io.numbers import number_from_text, powers_of_ten
+from halfmesh.io.off_binary import read_binary
+from halfmesh.io.off_header import Header, as_color, read_header
+from halfmesh.io.source import Source, count_lines, interpreted_size, skip_gaps
+
+__all__ = ["read_off"]
+
+_MOST_OPEN = 2048
+
+
+def read_off(source: Source) -> MeshData:
+    """Read OFF, text or binary.
+
+    Raises
+    ------
+    FormatError
+        With the line and what was expected there.
+
+    Notes
+    -----
+    Time and memory are proportional to the size of the file, whatever its header announces.
+    """
+    header = read_header(source)
+    if header.binary:
+        return read_binary(source, header)
+    header.check_counts(source)
+    text = _Text(source, header)
+    values, seen = text.vertices()
+    faces = text.faces()
+    text.check_end()
+    data = MeshData(faces.corners, faces.offsets, header.points(values), meta={"comments": header.comments})
+    data.vertex = header.attributes(values, seen)
+    data.face = _face_colors(faces)
+    return data
+
+
+@dataclass
+class _Faces:
+    corners: NDArray[np.int32]
+    offsets: NDArray[np.int32]
+    extras: NDArray[np.float64]  # up to four numbers behind each face
+    n_extras: NDArray[np.int8]
+    seen: int
+
+
+@dataclass
+class _Part:
+    """Lines begin..end; vertices up to `last_vertex` come first, then faces up to `last_face`."""
+
+    begin: int
+    end: int
+    vertex: int
+    last_vertex: int
+    face: int
+    last_face: int
+
+
+class _Text:
+    def __init__(self, source: Source, header: Header) -> None:
+        self.source, self.header = source, header
+        self.begin = header.body
+        self.size = interpreted_size(source.end - self.begin)
+        self.by_lines = True
+        self.parts = self._parts()
+        self.width = header.width(source) if self.by_lines else header.least_width
+        self.powers = powers_of_ten()
+        self.reached = self.begin
+
+    def _parts(self) -> list[_Part]:
+        """One part for each thread if every element has its own line, else one part for the whole text."""
+        n_vertices, n_faces = self.header.n_vertices, self.header.n_faces
+        spans = self.source.parts(self.begin)
+        lines = parallel(count_lines.at(self.size), [(self.source.data, *span) for span in spans])
+        if sum(lines) < n_vertices + n_faces:
+            self.by_lines = False
+            return [_Part(self.begin, self.source.end, 0, n_vertices, 0, n_faces)]
+        parts, line = [], 0
+        for (begin, end), n in zip(spans, lines, strict=True):
+            rows = (line, line + n)
+            vertex, last_vertex = (min(x, n_vertices) for x in rows)
+            face, last_face = (min(max(x - n_vertices, 0), n_faces) for x in rows)
+            parts.append(_Part(begin, end, vertex, last_vertex, face, last_face))
+            line += n
+        return parts
+
+    def vertices(self) -> tuple[NDArray[np.float64], int]:
+        """The rows of numbers, and a bit for each column that held more than integers."""
+        values = np.empty((self.header.n_vertices, self.width))
+        flat = values.reshape(-1)
+
+        def read(part: _Part) -> int:
+            state = self._state(part.begin, part.vertex)
+            run = k.read_vertices.at(self.size)
+            undecided = np.empty(2 * max(_MOST_OPEN, self.width), dtype=np.int64)
+
+            def step() -> None:
+                data = self.source.data
+                run(data, part.end, part.last_vertex, self.width, self.by_lines, self.powers, flat, undecided, state)
+
+            self._to_the_end(step, state, undecided, flat, "vertex")
+            part.begin = int(state[k.POSITION])
+            return int(state[k.SEEN])
+
+        seen = 0
+        for bits in parallel(read, [(part,) for part in self.parts]):
+            seen |= bits
+        return values, seen
+
+    def faces(self) -> _Faces:
+        """Corners, where each face begins, and what stands behind the indices."""
+        n_faces, n_bytes = self.header.n_faces, self.source.end - self.begin
+        degrees = np.empty(n_faces, dtype=np.int32)
+        extras, n_extras = np.empty(k.MOST_EXTRAS * n_faces), np.zeros(n_faces, dtype=np.int8)
+        room = np.empty(n_bytes // 2 + 1, dtype=np.int32)  # a corner takes at least two bytes; no page is touched in vain
+
+        def read(part: _Part) -> tuple[NDArray[np.int32], int]:
+            state = self._state(part.begin, part.face)
+            run = k.read_faces.at(self.size)
+            undecided = np.empty(2 * _MOST_OPEN, dtype=np.int64)
+            corners = room[(part.begin - self.begin) // 2 :]
+            n_vertices, data = self.header.n_vertices, self.source.data
+            shape = (part.last_face, n_vertices, self.by_lines, self.powers)
+
+            def step() -> None:
+                run(data, part.end, *shape, corners, degrees, extras, n_extras, undecided, state)
+
+            self._to_the_end(step, state, undecided, extras, "face")
+            part.begin = int(state[k.POSITION])
+            return corners[: state[k.CORNER]], int(state[k.SEEN])
+
+        pieces = parallel(read, [(part,) for part in self.parts])
+        offsets = np.zeros(n_faces + 1, dtype=np.int32)
+        np.cumsum(degrees, out=offsets[1:])
+        seen = max(bits for _, bits in pieces)
+        return _Faces(np.concatenate([corners for corners, _ in pieces]), offsets, extras, n_extras, seen)
+
+    def check_end(self) -> None:
+        """Refuse a file that goes on: its counts are wrong, and what would be left out is not ours to choose."""
+        for part in self.parts:
+            rest = skip_gaps.at(0 if part.begin == part.end else self.size)(self.source.data, part.begin, part.end)
+            if rest < part.end:
+                n_vertices, n_faces = self.header.n_vertices, self.header.n_faces
+                raise self.source.error(
+                    f"the header announces {n_vertices} vertices and {n_faces} faces, which end before this line, "
+                    f"but {self.source.shown(rest)} follows; correct the counts, or remove the rest",
+                    rest,
+                )
+
+    def _state(self, position: int, row: int) -> NDArray[np.int64]:
+        state = np.zeros(k.N_STATE, dtype=np.int64)
+        state[k.POSITION], state[k.ROW] = position, row
+        return state
+
+    def _to_the_end(
+        self, step: Callable[[], None], state: Any, undecided: Any, values: NDArray[np.float64], kind: str
+    ) -> None:
+        while True:
+            step()
+            self._decide(undecided[: 2 * state[k.N_OPEN]].reshape(-1, 2), values)
+            if state[k.CODE] == k.DONE:
+                return
+            if state[k.CODE] != k.AGAIN:
+                self._raise(int(state[k.CODE]), int(state[k.WHERE]), int(state[k.ROW]), kind)
+
+    def _decide(self, undecided: NDArray[np.int64], values: NDArray[np.float64]) -> None:
+        for at, place in undecided.tolist():
+            value = number_from_text(self.source.token(at))
+            if value is None:
+                raise self.source.error(f"expected a number, found {self.source.shown(at)}", at)
+            values[place] = value
+
+    def _raise(self, code: int, at: int, row: int, kind: str) -> NoReturn:
+        raise self.source.error(self._complaint(code, at, row, kind), at)
+
+    def _complaint(self, code: int, at: int, row: int, kind: str) -> str:
+        header = self.header
+        announced = header.n_vertices if kind == "vertex" else header.n_faces
+        form = f"{self.width} numbers" if kind == "vertex" else "a degree and that many vertex indices"
+        found = self.source.shown(at)
+        if code == k.FILE_ENDS:
+            return (
+                f"the file ends inside {kind} {row} of {announced}; expected {form} for each; "
+                "the file was cut off, or its counts are wrong"
+            )
+        if code == k.LINE_ENDS:
+            return f"the line of {kind} {row} ends too early; expected {form}"
+        if code == k.NOT_WHOLE:
+            return f"face {row}: expected {form}, as integers, found {found}"
+        if code == k.NO_SUCH_VERTEX:
+            return (
+                f"face {row} refers to vertex {found.strip(chr(39))}, but the {header.n_vertices} vertices are numbered "
+                f"from 0 to {header.n_vertices - 1}"
+            )
+        if code == k.SMALL_FACE:
+            return f"face {row} has {found.strip(chr(39))} vertices; expected at least 3 (points and lines are not faces)"
+        if kind == "vertex":
+            return f"the line of vertex {row} has more than {form}, which the first vertex line has; expected the same"
+        return f"face {row}: expected a colour of 1, 3 or 4 numbers or the end of the line, found {found}"
+
+
+def _face_colors(faces: _Faces) -> Attributes:
+    """The colours as they are written: an index into a colour map, or three or four components; NaN where none."""
+    if not faces.n_extras.any():
+        return {}
+    n = int(faces.n_extras.max())
+    colors = faces.extras.reshape(-1, k.MOST_EXTRAS)[:, :n].copy()
+    colors[np.arange(n) >= faces.n_extras[:, None]] = np.nan
+    whole = not faces.seen and int(faces.n_extras.min()) == n
+    if n == 1:
+        column = colors[:, 0]
+        return {"color_index": column.astype(np.int64) if whole and np.abs(column).max() < 2**53 else column}
+    return {"color": as_color(colors, whole)}
+

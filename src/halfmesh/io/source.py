@@ -1,0 +1,168 @@
+"""The bytes of a file, and where in it something is wrong."""
+
+from __future__ import annotations
+
+import os
+import stat
+from collections.abc import Iterator
+
+import numpy as np
+from numpy.typing import NDArray
+
+from halfmesh._jit import kernel, n_threads
+from halfmesh.errors import FormatError
+from halfmesh.io.numbers import is_end
+
+__all__ = ["Source", "interpreted_size", "n_parts"]
+
+Bytes = NDArray[np.uint8]
+
+_PART = 500_000  # bytes; below that a second thread costs more than it saves
+_MOST_SHOWN = 40
+
+
+def interpreted_size(n_bytes: int) -> int:
+    """What to tell ``kernel.at``: interpreted parsing takes about 0.25 us a byte, importing Numba 0.4 s."""
+    return n_bytes // 64
+
+
+def n_parts(n_bytes: int) -> int:
+    """Into how many parts a text of that size is cut."""
+    return max(1, min(n_threads(), n_bytes // _PART))
+
+
+class Source:
+    """A file read into memory, once.
+
+    Parameters
+    ----------
+    path : str or path-like
+
+    Attributes
+    ----------
+    path : str
+    data : ndarray of uint8
+    begin : int
+        0, or 3 behind the mark that some editors put before UTF-8 text.
+
+    Raises
+    ------
+    OSError
+        Whatever the system says.
+    FormatError
+        If `path` is not a regular file (a pipe, a device) or is encoded as UTF-16.
+    """
+
+    def __init__(self, path: str | os.PathLike[str]) -> None:
+        self.path = os.fspath(path)
+        self.data = _contents(self.path)
+        head = bytes(self.data[:3])
+        if head[:2] in {b"\xff\xfe", b"\xfe\xff"}:
+            raise self.error("this is UTF-16 text; save the file as UTF-8 or ASCII")
+        self.begin = 3 if head == b"\xef\xbb\xbf" else 0
+
+    @property
+    def end(self) -> int:
+        """Number of bytes."""
+        return len(self.data)
+
+    def error(self, message: str, at: int | None = None) -> FormatError:
+        """The exception for what is wrong at byte `at`; the line is counted only now."""
+        return FormatError(message, path=self.path, line=None if at is None else self.line(at))
+
+    def binary_error(self, message: str, at: int | None = None) -> FormatError:
+        """The same for files without lines."""
+        return FormatError(message, path=self.path, offset=at)
+
+    def line(self, at: int) -> int:
+        """Number of the line that holds byte `at`, from 1; lines end with LF, CR LF or CR."""
+        before = self.data[:at]
+        feeds = int(np.count_nonzero(before == 10))
+        returns = before == 13
+        if not returns.any():
+            return feeds + 1
+        followed = self.data[1 : at + 1] == 10
+        return feeds + 1 + int(np.count_nonzero(returns[: len(followed)] & ~followed))
+
+    def token(self, at: int) -> bytes:
+        """The token that begins at `at`."""
+        size = 64
+        while True:
+            window = memoryview(self.data)[at : at + size]
+            n = next((i for i, c in enumerate(window) if is_end.plain(c)), -1)
+            if n >= 0 or at + size >= self.end:
+                return bytes(window[:n] if n >= 0 else window)
+            size *= 8
+
+    def shown(self, at: int) -> str:
+        """The token that begins at `at`, fit for a message."""
+        token = self.token(at) if at < self.end else b""
+        if not token:
+            return "the end of the line" if at < self.end else "the end of the file"
+        text = token[:_MOST_SHOWN].decode("ascii", "backslashreplace")
+        return repr(text) + ("..." if len(token) > _MOST_SHOWN else "")
+
+    def parts(self, begin: int, *, joined: bool = False) -> list[tuple[int, int]]:
+        """The bytes from `begin` on in a few parts that end with a line; ``joined``: a backslash joins two lines."""
+        n = n_parts(self.end - begin)
+        wanted = (begin + (self.end - begin) * k // n for k in range(1, n))
+        cuts = [begin, *(self._line_begin(at, joined) for at in wanted), self.end]
+        return [(low, high) for low, high in zip(cuts[:-1], cuts[1:], strict=True) if low < high] or [(begin, begin)]
+
+    def _line_begin(self, at: int, joined: bool) -> int:
+        for cut in self._line_ends(at):
+            before = bytes(self.data[max(cut - 3, 0) : cut]).rstrip(b"\r\n")
+            if not (joined and before.endswith(b"\\")):
+                return cut
+        return self.end
+
+    def _line_ends(self, at: int) -> Iterator[int]:
+        size = 4096
+        while at < self.end:
+            window = self.data[at : at + size]
+            for i in np.flatnonzero((window == 10) | (window == 13)):
+                yield at + int(i) + 1
+            at += size
+            size *= 8
+
+
+def _contents(path: str) -> Bytes:
+    if not (stat.S_ISREG(mode := os.stat(path).st_mode) or stat.S_ISDIR(mode)):
+        raise FormatError("this is not a regular file (a pipe or a device?); copy its contents to a file", path=path)
+    with open(path, "rb") as file:
+        data = np.empty(os.fstat(file.fileno()).st_size, dtype=np.uint8)
+        n = 0
+        while n < len(data) and (more := file.readinto(memoryview(data)[n:])):  # type: ignore[arg-type]
+            n += more
+    return data[:n]
+
+
+@kernel
+def skip_gaps(b: Bytes, i: int, end: int) -> int:
+    """The next token at or after `i`, over blanks, line ends and comments."""
+    while i < end:
+        c = b[i]
+        if c == 35:
+            while i < end and b[i] != 10 and b[i] != 13:
+                i += 1
+        elif c == 32 or 9 <= c <= 13:
+            i += 1
+        else:
+            break
+    return i
+
+
+@kernel
+def count_lines(b: Bytes, i: int, end: int) -> int:
+    """How many lines hold more than blanks and a comment."""
+    n = 0
+    while i < end:
+        c = b[i]
+        if c == 32 or 9 <= c <= 13:
+            i += 1
+            continue
+        if c != 35:
+            n += 1
+        while i < end and b[i] != 10 and b[i] != 13:
+            i += 1
+    return n
