@@ -63,3 +63,11 @@ def test_every_reason_is_in_the_table_of_errors() -> None:
     page = (ROOT / "docs/guide/errors.md").read_text(encoding="utf-8")
     assert "nonmanifold_edge" in reasons
     assert {reason for reason in reasons if f"`{reason}`" not in page} == set()
+
+
+def test_picture_is_what_the_viewer_draws_today() -> None:
+    from halfmesh.viewer import FIGURE_FACES, FIGURE_POINTS, structure_diagram
+
+    drawn = structure_diagram(hm.Mesh(FIGURE_FACES, FIGURE_POINTS))
+    kept = (ROOT / "docs/images/structure.svg").read_text(encoding="utf-8")
+    assert kept == drawn, "write docs/images/structure.svg anew with halfmesh.viewer.save_structure_diagram"
