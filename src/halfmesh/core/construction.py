@@ -93,20 +93,20 @@ def _mates(faces: FaceList) -> Ints:
     """For each corner, the corner whose halfedge is the twin of the halfedge *before* it; -1 at a boundary."""
     n = faces.n_corners
     parts = _parts(faces.n_faces, n)
-    cursor = np.zeros((len(parts), faces.n_vertices), dtype=np.int32)
+    cursors = np.zeros((len(parts), faces.n_vertices), dtype=np.int32)
     shape = (faces.degree, faces.offsets)
-    run = _count.at(n)
-    if sum(parallel(run, [(faces.corners, *shape, cursor, i, *p) for i, p in enumerate(parts)])):
+    jobs = [(faces.corners, *shape, row, *part) for row, part in zip(cursors, parts, strict=True)]
+    if sum(parallel(_count.at(n), jobs)):
         raise Defective
     first = np.empty(faces.n_vertices + 1, dtype=np.int32)
-    _first_places.at(n)(cursor, first)
-    around = np.empty((max(n, 1), 3), dtype=np.int32)
-    run = _gather.at(n)
-    parallel(run, [(faces.corners, *shape, cursor, i, around, *p) for i, p in enumerate(parts)])
+    _first_places.at(n)(cursors, first)
+    around = np.empty(3 * n, dtype=np.int32)  # flat: Numba multiplies by the strides of a 2-D array at every access
+    parallel(_gather.at(n), [(*job[:-2], around, *job[-2:]) for job in jobs])
     mates = np.empty(n, dtype=np.int32)
     parts = _parts(faces.n_vertices, n)
-    table = np.full((len(parts), faces.n_vertices), NONE, dtype=np.int32)
-    if sum(parallel(_match.at(n), [(first, around, table, i, mates, *p) for i, p in enumerate(parts)])):
+    tables = np.full((len(parts), faces.n_vertices), NONE, dtype=np.int32)
+    jobs = [(first, around, row, mates, *part) for row, part in zip(tables, parts, strict=True)]
+    if sum(parallel(_match.at(n), jobs)):
         raise Defective
     return mates
 
@@ -119,10 +119,10 @@ def _parts(n: int, work: int) -> list[tuple[int, int]]:
 
 
 @kernel
-def _count(corners: Any, degree: int, offsets: Any, cursor: Any, part: int, low: int, high: int) -> int:
+def _count(corners: Any, degree: int, offsets: Any, cursor: Any, low: int, high: int) -> int:
     """How many corners of the faces low..high each vertex has; returns how many corners are wrong."""
     wrong = 0
-    n_vertices = cursor.shape[1]
+    n_vertices = len(cursor)
     for f in range(low, high):
         begin, end = _corner_range(degree, offsets, f)
         before = corners[end - 1] if end > begin else 0
@@ -132,7 +132,7 @@ def _count(corners: Any, degree: int, offsets: Any, cursor: Any, part: int, low:
             if v < 0 or v >= n_vertices or v == before:
                 wrong += 1
             else:
-                cursor[part, v] += 1
+                cursor[v] += 1
             before = v
     return wrong
 
@@ -145,22 +145,20 @@ def _corner_range(degree: int, offsets: Any, f: int) -> tuple[int, int]:
 
 
 @kernel
-def _first_places(cursor: Any, first: Any) -> None:
-    """Counts become the first place of each vertex, and in `cursor` of each part's corners of it."""
+def _first_places(cursors: Any, first: Any) -> None:
+    """Counts become the first place of each vertex, and in `cursors` of each part's corners of it."""
     place = 0
-    for v in range(cursor.shape[1]):
+    for v in range(cursors.shape[1]):
         first[v] = place
-        for part in range(cursor.shape[0]):
-            n = cursor[part, v]
-            cursor[part, v] = place
+        for part in range(cursors.shape[0]):
+            n = cursors[part, v]
+            cursors[part, v] = place
             place += n
-    first[cursor.shape[1]] = place
+    first[cursors.shape[1]] = place
 
 
 @kernel
-def _gather(
-    corners: Any, degree: int, offsets: Any, cursor: Any, part: int, around: Any, low: int, high: int
-) -> None:
+def _gather(corners: Any, degree: int, offsets: Any, cursor: Any, around: Any, low: int, high: int) -> None:
     """Each corner goes, as (vertex before, vertex after, corner), to the corners of its vertex, in corner order."""
     for f in range(low, high):
         begin, end = _corner_range(degree, offsets, f)
@@ -168,77 +166,70 @@ def _gather(
         v = corners[begin]
         for c in range(begin, end):
             after = corners[c + 1 if c + 1 < end else begin]
-            place = cursor[part, v]
-            cursor[part, v] = place + 1
-            around[place, 0] = before
-            around[place, 1] = after
-            around[place, 2] = c
+            place = cursor[v]
+            cursor[v] = place + 1
+            around[3 * place] = before
+            around[3 * place + 1] = after
+            around[3 * place + 2] = c
             before = v
             v = after
 
 
 @kernel
-def _match(first: Any, around: Any, table: Any, part: int, mates: Any, low: int, high: int) -> int:
+def _match(first: Any, around: Any, table: Any, mates: Any, low: int, high: int) -> int:
     """Link the corners around each of the vertices low..high; returns how many vertices can't be held.
 
-    ``table[part, u]`` is the corner that goes on to `u`. It is never cleared: an entry counts only if it points
-    among the corners of this vertex and agrees.
+    ``table[u]`` is the corner that goes on to `u`. It is never cleared: an entry counts only if it points among the
+    corners of this vertex and agrees. A closed fan is matched while it is walked, which is all that most vertices need.
     """
     wrong = 0
     for v in range(low, high):
         begin, end = first[v], first[v + 1]
         doubled = 0
         for i in range(begin, end):
-            u = around[i, 1]
-            j = table[part, u]
-            doubled += begin <= j and j < i and around[j if j >= 0 else 0, 1] == u
-            table[part, u] = i
-        n_open = 0
-        for i in range(begin, end):
-            u = around[i, 0]
-            j = table[part, u]
-            if begin <= j and j < end and around[j, 1] == u:
-                mates[around[i, 2]] = around[j, 2]
-            else:
-                mates[around[i, 2]] = NONE
-                n_open += 1
+            u = around[3 * i + 1]
+            j = table[u]
+            if begin <= j and j < i and around[3 * j + 1] == u:
+                doubled += 1
+            table[u] = i
         if doubled > 0:
             wrong += 1
-        elif n_open == 0:
-            wrong += _closed_fan_size(around, table, part, begin, end) != end - begin
-        else:
-            wrong += _open_fans_size(around, table, part, mates, begin, end) != end - begin
+            continue  # a halfedge twice: the walks below rely on each being there once
+        i, size = begin, 0
+        for _ in range(begin, end):
+            u = around[3 * i]
+            j = table[u]
+            if not (begin <= j and j < end and around[3 * j + 1] == u):
+                size = _match_open_fans(around, table, mates, begin, end)
+                break
+            mates[around[3 * i + 2]] = around[3 * j + 2]
+            size += 1
+            i = j
+            if i == begin:
+                break
+        wrong += size != end - begin
     return wrong
 
 
 @kernel
-def _closed_fan_size(around: Any, table: Any, part: int, begin: int, end: int) -> int:
-    """Corners in the fan of the first one, where each has a counter-clockwise neighbor."""
-    size = 0
-    i = begin
-    while size < end - begin:
-        i = table[part, around[i, 0]]
-        size += 1
-        if i == begin:
-            break
-    return size
-
-
-@kernel
-def _open_fans_size(around: Any, table: Any, part: int, mates: Any, begin: int, end: int) -> int:
-    """Corners in the open fans of a vertex: walked clockwise from the last corner of each."""
+def _match_open_fans(around: Any, table: Any, mates: Any, begin: int, end: int) -> int:
+    """Match the corners of a vertex that touches a gap; returns how many of them are in open fans."""
     for i in range(begin, end):
-        table[part, around[i, 0]] = i
+        u = around[3 * i]
+        j = table[u]
+        found = begin <= j and j < end and around[3 * j + 1] == u
+        mates[around[3 * i + 2]] = around[3 * j + 2] if found else NONE
+    for i in range(begin, end):
+        table[around[3 * i]] = i  # from now on: the corner that comes from u, to walk clockwise
     size = 0
     for i in range(begin, end):
-        if mates[around[i, 2]] < 0:
-            j = i
-            while True:
-                size += 1
-                u = around[j, 1]
-                j = table[part, u]
-                if not (begin <= j and j < end and around[j, 0] == u):
-                    break
+        j = i
+        found = mates[around[3 * i + 2]] < 0
+        while found:  # from the last corner of a fan to its first
+            size += 1
+            u = around[3 * j + 1]
+            j = table[u]
+            found = begin <= j and j < end and around[3 * j] == u
     return size
 
 
