@@ -26,7 +26,7 @@ def examples_of(page: Path) -> doctest.DocTest:
         first = text.count("\n", 0, fence.start(1))
         for i, line in enumerate(fence.group(1).splitlines()):
             lines[first + i] = line
-    return doctest.DocTestParser().get_doctest("\n".join(lines), {}, page.name, str(page), 0)
+    return doctest.DocTestParser().get_doctest("\n".join(lines), {"__name__": "__main__"}, page.name, str(page), 0)
 
 
 WITH_EXAMPLES = [page for page in PAGES if examples_of(page).examples]
