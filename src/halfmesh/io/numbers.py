@@ -3,8 +3,8 @@
 A decimal number is ``w * 10**e`` with an integer `w`. Where `w` and the power of ten are both exact in float64, one
 multiplication or division rounds once, and that is the answer. Everywhere else the product is formed in *double-double*
 (a sum of two float64, about 106 bits) and rounded; the rest says how far the next rounding boundary is, and if the
-boundary is nearer than the error bound, or the number is out of the ordinary (``nan``, ``inf``, exponents beyond 10**120),
-the kernel doesn't guess: it notes the place as *undecided* and Python decides with ``float()``.
+boundary is nearer than the error bound, or the number is out of the ordinary (``nan``, ``inf``, beyond 10**120), the
+kernel doesn't guess: it notes the place as *undecided* and Python decides with ``float()``.
 
 Only float64 and small ints are used, so that compiled and interpreted code do the very same arithmetic.
 
@@ -24,7 +24,7 @@ from numpy.typing import NDArray
 
 from halfmesh._jit import kernel
 
-__all__ = ["DECIMAL", "INTEGER", "UNDECIDED", "is_blank", "is_end", "number", "number_from_text", "powers_of_ten", "times"]
+__all__ = ["DECIMAL", "INTEGER", "UNDECIDED", "is_blank", "is_end", "number", "number_from_text", "powers_of_ten"]
 
 INTEGER, DECIMAL, UNDECIDED = 0, 1, 2
 
@@ -66,7 +66,7 @@ def number_from_text(token: bytes) -> float | None:
 @kernel
 def is_blank(c: int) -> bool:
     """Space, tab, vertical tab, form feed: what separates numbers within a line."""
-    return c == 32 or c == 9 or c == 11 or c == 12
+    return c == 32 or (9 <= c <= 12 and c != 10)
 
 
 @kernel

@@ -10,9 +10,11 @@ stream of tokens, in which a vertex may span lines or share one.
 
 from __future__ import annotations
 
+import functools
+import operator
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, NoReturn
+from typing import Any, NamedTuple, NoReturn
 
 import numpy as np
 from numpy.typing import NDArray
@@ -47,22 +49,31 @@ def read_off(source: Source) -> MeshData:
         return read_binary(source, header)
     header.check_counts(source)
     text = _Text(source, header)
-    values, seen = text.vertices()
-    faces = text.faces()
+    found = text.read()
     text.check_end()
-    data = MeshData(faces.corners, faces.offsets, header.points(values), meta={"comments": header.comments})
-    data.vertex = header.attributes(values, seen)
-    data.face = _face_colors(faces)
+    data = MeshData(found.corners, found.offsets, header.points(found.values), meta={"comments": header.comments})
+    data.vertex = header.attributes(found.values, found.dotted)
+    data.face = _face_colors(found)
     return data
 
 
 @dataclass
-class _Faces:
+class _Elements:
+    values: NDArray[np.float64]
+    dotted: int  # bit c: column c of the vertices is not all integers
     corners: NDArray[np.int32]
     offsets: NDArray[np.int32]
     extras: NDArray[np.float64]  # up to four numbers behind each face
     n_extras: NDArray[np.int8]
-    seen: int
+    extras_dotted: int
+
+
+class _Piece(NamedTuple):
+    """What one thread found: corners, and whether there was a point or exponent in numbers of vertices and faces."""
+
+    corners: NDArray[np.int32]
+    dotted: int
+    extras_dotted: int
 
 
 @dataclass
@@ -86,7 +97,11 @@ class _Text:
         self.parts = self._parts()
         self.width = header.width(source) if self.by_lines else header.least_width
         self.powers = powers_of_ten()
-        self.reached = self.begin
+        n_faces = header.n_faces
+        self.values = np.empty((header.n_vertices, self.width))
+        self.degrees = np.empty(n_faces, dtype=np.int32)
+        self.extras, self.n_extras = np.empty(k.MOST_EXTRAS * n_faces), np.zeros(n_faces, dtype=np.int8)
+        self.room = np.empty((source.end - self.begin) // 2 + 1, dtype=np.int32)  # a corner takes at least two bytes
 
     def _parts(self) -> list[_Part]:
         """One part for each thread if every element has its own line, else one part for the whole text."""
@@ -105,56 +120,48 @@ class _Text:
             line += n
         return parts
 
-    def vertices(self) -> tuple[NDArray[np.float64], int]:
-        """The rows of numbers, and a bit for each column that held more than integers."""
-        values = np.empty((self.header.n_vertices, self.width))
-        flat = values.reshape(-1)
+    def read(self) -> _Elements:
+        """All vertices and faces; each part is read on by its thread, across the border between the two."""
+        pieces = parallel(self._read_part, [(part,) for part in self.parts])
+        offsets = np.zeros(self.header.n_faces + 1, dtype=np.int32)
+        np.cumsum(self.degrees, out=offsets[1:])
+        corners = np.concatenate([piece.corners for piece in pieces])
+        dotted = functools.reduce(operator.or_, (piece.dotted for piece in pieces))
+        extras_dotted = max(piece.extras_dotted for piece in pieces)
+        return _Elements(self.values, dotted, corners, offsets, self.extras, self.n_extras, extras_dotted)
 
-        def read(part: _Part) -> int:
-            state = self._state(part.begin, part.vertex)
-            run = k.read_vertices.at(self.size)
-            undecided = np.empty(2 * max(_MOST_OPEN, self.width), dtype=np.int64)
+    def _read_part(self, part: _Part) -> _Piece:
+        dotted = self._read_vertices(part)
+        corners, extras_dotted = self._read_faces(part)
+        return _Piece(corners, dotted, extras_dotted)
 
-            def step() -> None:
-                data = self.source.data
-                run(data, part.end, part.last_vertex, self.width, self.by_lines, self.powers, flat, undecided, state)
+    def _read_vertices(self, part: _Part) -> int:
+        state = _state(part.begin, part.vertex)
+        run = k.read_vertices.at(self.size)
+        undecided = np.empty(2 * max(_MOST_OPEN, self.width), dtype=np.int64)
+        data, values = self.source.data, self.values.reshape(-1)
 
-            self._to_the_end(step, state, undecided, flat, "vertex")
-            part.begin = int(state[k.POSITION])
-            return int(state[k.SEEN])
+        def step() -> None:
+            run(data, part.end, part.last_vertex, self.width, self.by_lines, self.powers, values, undecided, state)
 
-        seen = 0
-        for bits in parallel(read, [(part,) for part in self.parts]):
-            seen |= bits
-        return values, seen
+        self._to_the_end(step, state, undecided, values, "vertex")
+        part.begin = int(state[k.POSITION])
+        return int(state[k.SEEN])
 
-    def faces(self) -> _Faces:
-        """Corners, where each face begins, and what stands behind the indices."""
-        n_faces, n_bytes = self.header.n_faces, self.source.end - self.begin
-        degrees = np.empty(n_faces, dtype=np.int32)
-        extras, n_extras = np.empty(k.MOST_EXTRAS * n_faces), np.zeros(n_faces, dtype=np.int8)
-        room = np.empty(n_bytes // 2 + 1, dtype=np.int32)  # a corner takes at least two bytes; no page is touched in vain
+    def _read_faces(self, part: _Part) -> tuple[NDArray[np.int32], int]:
+        state = _state(part.begin, part.face)
+        run = k.read_faces.at(self.size)
+        undecided = np.empty(2 * _MOST_OPEN, dtype=np.int64)
+        corners = self.room[(part.begin - self.begin) // 2 :]
+        data, n_vertices = self.source.data, self.header.n_vertices
+        outputs = (corners, self.degrees, self.extras, self.n_extras, undecided, state)
 
-        def read(part: _Part) -> tuple[NDArray[np.int32], int]:
-            state = self._state(part.begin, part.face)
-            run = k.read_faces.at(self.size)
-            undecided = np.empty(2 * _MOST_OPEN, dtype=np.int64)
-            corners = room[(part.begin - self.begin) // 2 :]
-            n_vertices, data = self.header.n_vertices, self.source.data
-            shape = (part.last_face, n_vertices, self.by_lines, self.powers)
+        def step() -> None:
+            run(data, part.end, part.last_face, n_vertices, self.by_lines, self.powers, *outputs)
 
-            def step() -> None:
-                run(data, part.end, *shape, corners, degrees, extras, n_extras, undecided, state)
-
-            self._to_the_end(step, state, undecided, extras, "face")
-            part.begin = int(state[k.POSITION])
-            return corners[: state[k.CORNER]], int(state[k.SEEN])
-
-        pieces = parallel(read, [(part,) for part in self.parts])
-        offsets = np.zeros(n_faces + 1, dtype=np.int32)
-        np.cumsum(degrees, out=offsets[1:])
-        seen = max(bits for _, bits in pieces)
-        return _Faces(np.concatenate([corners for corners, _ in pieces]), offsets, extras, n_extras, seen)
+        self._to_the_end(step, state, undecided, self.extras, "face")
+        part.begin = int(state[k.POSITION])
+        return corners[: state[k.CORNER]], int(state[k.SEEN])
 
     def check_end(self) -> None:
         """Refuse a file that goes on: its counts are wrong, and what would be left out is not ours to choose."""
@@ -167,11 +174,6 @@ class _Text:
                     f"but {self.source.shown(rest)} follows; correct the counts, or remove the rest",
                     rest,
                 )
-
-    def _state(self, position: int, row: int) -> NDArray[np.int64]:
-        state = np.zeros(k.N_STATE, dtype=np.int64)
-        state[k.POSITION], state[k.ROW] = position, row
-        return state
 
     def _to_the_end(
         self, step: Callable[[], None], state: Any, undecided: Any, values: NDArray[np.float64], kind: str
@@ -199,6 +201,7 @@ class _Text:
         announced = header.n_vertices if kind == "vertex" else header.n_faces
         form = f"{self.width} numbers" if kind == "vertex" else "a degree and that many vertex indices"
         found = self.source.shown(at)
+        index = found.strip("'")
         if code == k.FILE_ENDS:
             return (
                 f"the file ends inside {kind} {row} of {announced}; expected {form} for each; "
@@ -210,26 +213,31 @@ class _Text:
             return f"face {row}: expected {form}, as integers, found {found}"
         if code == k.NO_SUCH_VERTEX:
             return (
-                f"face {row} refers to vertex {found.strip(chr(39))}, but the {header.n_vertices} vertices are numbered "
-                f"from 0 to {header.n_vertices - 1}"
+                f"face {row} refers to vertex {index}, but the {header.n_vertices} vertices are "
+                f"numbered from 0 to {header.n_vertices - 1}"
             )
         if code == k.SMALL_FACE:
-            return f"face {row} has {found.strip(chr(39))} vertices; expected at least 3 (points and lines are not faces)"
+            return f"face {row} has {index} vertices; expected at least 3 (points and lines are not faces)"
         if kind == "vertex":
             return f"the line of vertex {row} has more than {form}, which the first vertex line has; expected the same"
         return f"face {row}: expected a colour of 1, 3 or 4 numbers or the end of the line, found {found}"
 
 
-def _face_colors(faces: _Faces) -> Attributes:
+def _state(position: int, row: int) -> NDArray[np.int64]:
+    state = np.zeros(k.N_STATE, dtype=np.int64)
+    state[k.POSITION], state[k.ROW] = position, row
+    return state
+
+
+def _face_colors(faces: _Elements) -> Attributes:
     """The colours as they are written: an index into a colour map, or three or four components; NaN where none."""
     if not faces.n_extras.any():
         return {}
     n = int(faces.n_extras.max())
     colors = faces.extras.reshape(-1, k.MOST_EXTRAS)[:, :n].copy()
     colors[np.arange(n) >= faces.n_extras[:, None]] = np.nan
-    whole = not faces.seen and int(faces.n_extras.min()) == n
+    whole = not faces.extras_dotted and int(faces.n_extras.min()) == n
     if n == 1:
         column = colors[:, 0]
         return {"color_index": column.astype(np.int64) if whole and np.abs(column).max() < 2**53 else column}
     return {"color": as_color(colors, whole)}
-

@@ -73,13 +73,13 @@ class Header:
         least = 2 * (self._width(3) * self.n_vertices + self.n_faces) - 1
         if least > left or max(self.n_vertices, self.n_faces) > _LIMIT:
             raise source.error(
-                f"{self.n_vertices} vertices and {self.n_faces} faces are announced, which take at least {least} bytes, "
+                f"{self.n_vertices} vertices and {self.n_faces} faces are announced, which take {least} bytes or more, "
                 f"but only {left} bytes follow; the counts are wrong, or the file was cut off",
                 self.counts_at,
             )
 
     def width(self, source: Source) -> int:
-        """Numbers of a vertex, by the first vertex line; sets the number of colour components and of further columns."""
+        """Numbers of a vertex, by the first vertex line; sets `n_colors` and `n_extras`."""
         if self.n_vertices == 0:
             return self.least_width
         n = _tokens_in_line(source, self._first_token(source), self.least_width + _MOST_EXTRAS)
@@ -88,7 +88,7 @@ class Header:
         return self._width(self.n_colors) + self.n_extras
 
     def _first_token(self, source: Source) -> int:
-        gap = _GAP.match(source.data, self.body)
+        gap = _GAP.match(source.view, self.body)
         assert gap is not None  # it matches nothing, too
         return gap.end()
 
@@ -141,14 +141,14 @@ class _Reader:
 
     def next(self) -> bytes:
         """The next token; empty at the end of the file."""
-        gap = _GAP.match(self.source.data, self.at)
+        gap = _GAP.match(self.source.view, self.at)
         assert gap is not None
         self.comments += [text.decode("utf-8", "replace").rstrip() for text in _COMMENT.findall(gap.group())]
         return self._take(gap.end())
 
     def same_line(self) -> bool:
         """Whether another token follows on this line."""
-        rest = _REST_OF_LINE.match(self.source.data, self.at)
+        rest = _REST_OF_LINE.match(self.source.view, self.at)
         return rest is not None and bool(rest["word"])
 
     def back(self, n: int) -> None:
@@ -157,7 +157,7 @@ class _Reader:
 
     def _take(self, start: int) -> bytes:
         self.start = start
-        token = _TOKEN.match(self.source.data, start)
+        token = _TOKEN.match(self.source.view, start)
         if token is None:
             return b""
         self.at = token.end()
@@ -167,7 +167,8 @@ class _Reader:
         token = self.next()
         if _COUNT.match(token) is None:
             raise self.source.error(
-                f"expected the number of {what}, found {self.source.shown(self.start)}", min(self.start, self.source.end)
+                f"expected the number of {what}, found {self.source.shown(self.start)}",
+                min(self.start, self.source.end),
             )
         return int(token)
 
@@ -182,7 +183,7 @@ def read_header(source: Source) -> Header:
     if keyword is not None:
         reader.back(len(keyword["rest"]))
         _apply_prefix(header, keyword["prefix"].decode(), source, reader)
-        rest = _REST_OF_LINE.match(source.data, reader.at)
+        rest = _REST_OF_LINE.match(source.view, reader.at)
         if rest is not None and rest["word"] == b"BINARY":
             header.binary = True
             header.body = _after_line(source, rest.end())
@@ -228,7 +229,7 @@ def _hint(source: Source) -> str:
 
 def _after_line(source: Source, at: int) -> int:
     """The byte behind the line that ends at or after `at`."""
-    end = re.compile(rb"[^\r\n]*(?:\r\n|\n|\r|\Z)").match(source.data, at)
+    end = re.compile(rb"[^\r\n]*(?:\r\n|\n|\r|\Z)").match(source.view, at)
     assert end is not None
     return end.end()
 
@@ -236,7 +237,7 @@ def _after_line(source: Source, at: int) -> int:
 def _tokens_in_line(source: Source, at: int, most: int) -> int:
     tokens = re.compile(rb"[ \t\v\f]*[^\s#]++")
     n = 0
-    while n < most and (token := tokens.match(source.data, at)) is not None:
+    while n < most and (token := tokens.match(source.view, at)) is not None:
         n += 1
         at = token.end()
     return n

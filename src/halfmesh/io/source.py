@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
+import itertools
 import os
 import stat
-from collections.abc import Iterator
 
 import numpy as np
 from numpy.typing import NDArray
@@ -41,7 +41,7 @@ class Source:
     Attributes
     ----------
     path : str
-    data : ndarray of uint8
+    data, view : ndarray of uint8, memoryview of it
     begin : int
         0, or 3 behind the mark that some editors put before UTF-8 text.
 
@@ -56,6 +56,7 @@ class Source:
     def __init__(self, path: str | os.PathLike[str]) -> None:
         self.path = os.fspath(path)
         self.data = _contents(self.path)
+        self.view = memoryview(self.data)  # type: ignore[arg-type]
         head = bytes(self.data[:3])
         if head[:2] in {b"\xff\xfe", b"\xfe\xff"}:
             raise self.error("this is UTF-16 text; save the file as UTF-8 or ASCII")
@@ -88,7 +89,7 @@ class Source:
         """The token that begins at `at`."""
         size = 64
         while True:
-            window = memoryview(self.data)[at : at + size]
+            window = self.view[at : at + size]
             n = next((i for i, c in enumerate(window) if is_end.plain(c)), -1)
             if n >= 0 or at + size >= self.end:
                 return bytes(window[:n] if n >= 0 else window)
@@ -102,28 +103,23 @@ class Source:
         text = token[:_MOST_SHOWN].decode("ascii", "backslashreplace")
         return repr(text) + ("..." if len(token) > _MOST_SHOWN else "")
 
-    def parts(self, begin: int, *, joined: bool = False) -> list[tuple[int, int]]:
-        """The bytes from `begin` on in a few parts that end with a line; ``joined``: a backslash joins two lines."""
+    def parts(self, begin: int) -> list[tuple[int, int]]:
+        """The bytes from `begin` on in a few parts that end with a line."""
         n = n_parts(self.end - begin)
         wanted = (begin + (self.end - begin) * k // n for k in range(1, n))
-        cuts = [begin, *(self._line_begin(at, joined) for at in wanted), self.end]
-        return [(low, high) for low, high in zip(cuts[:-1], cuts[1:], strict=True) if low < high] or [(begin, begin)]
+        cuts = [begin, *(self._next_line(at) for at in wanted), self.end]
+        return [(low, high) for low, high in itertools.pairwise(cuts) if low < high] or [(begin, begin)]
 
-    def _line_begin(self, at: int, joined: bool) -> int:
-        for cut in self._line_ends(at):
-            before = bytes(self.data[max(cut - 3, 0) : cut]).rstrip(b"\r\n")
-            if not (joined and before.endswith(b"\\")):
-                return cut
-        return self.end
-
-    def _line_ends(self, at: int) -> Iterator[int]:
+    def _next_line(self, at: int) -> int:
         size = 4096
         while at < self.end:
             window = self.data[at : at + size]
-            for i in np.flatnonzero((window == 10) | (window == 13)):
-                yield at + int(i) + 1
+            ends = np.flatnonzero((window == 10) | (window == 13))
+            if len(ends):
+                return at + int(ends[0]) + 1
             at += size
             size *= 8
+        return self.end
 
 
 def _contents(path: str) -> Bytes:
