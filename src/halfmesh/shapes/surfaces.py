@@ -163,9 +163,7 @@ def cylinder(
     return Mesh(mixed(*faces), points if closed and triangles else points[:n])
 
 
-def torus(
-    n: int = 32, m: int = 16, *, radius: float = 1.0, tube_radius: float = 0.4, triangles: bool = False
-) -> Mesh:
+def torus(n: int = 32, m: int = 16, *, radius: float = 1.0, tube_radius: float = 0.4, triangles: bool = False) -> Mesh:
     """A torus around the z axis.
 
     Parameters
@@ -202,7 +200,9 @@ def torus(
     n, m = whole("n", n, 3), whole("m", m, 3)
     radius, tube_radius = positive("radius", radius), positive("tube_radius", tube_radius)
     if tube_radius >= radius:
-        raise ValueError(f"tube_radius must be less than radius, {radius}: the torus would meet itself with {tube_radius}")
+        raise ValueError(
+            f"tube_radius must be less than radius, {radius}: the torus would meet itself with {tube_radius}"
+        )
     holdable((6 if triangles else 4) * n * m, f"torus({n}, {m})")
     along, section = circle(n), circle(m, tube_radius)
     points = np.empty((m, n, 3))

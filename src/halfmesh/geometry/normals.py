@@ -1,0 +1,131 @@
+"""Normals of faces and of vertices."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Literal
+
+import numpy as np
+
+from halfmesh._jit import kernel
+from halfmesh.core.circulation import outgoing
+from halfmesh.core.navigation import face_of, halfedge_of_face
+from halfmesh.geometry._passes import Floats, points_of, run
+from halfmesh.geometry._vectors import plus, point, scaled, unit
+from halfmesh.geometry.angles import normals_and_angles
+from halfmesh.geometry.areas import face_vectors
+from halfmesh.geometry.kernels import face_normal
+
+if TYPE_CHECKING:
+    from halfmesh.mesh.mesh import Mesh
+
+__all__ = ["face_normals", "vertex_normals"]
+
+
+def face_normals(mesh: Mesh) -> Floats:
+    """The unit normal of every face; the face is counter-clockwise seen from its tip.
+
+    Parameters
+    ----------
+    mesh : Mesh
+
+    Returns
+    -------
+    ndarray of float64, shape (n face slots, 3)
+        The directions of :func:`face_vectors`: for a polygon that isn't flat, the one along which its shadow is
+        largest. Zero for faces without area and for deleted faces.
+
+    Notes
+    -----
+    O(n), on all threads.
+
+    Examples
+    --------
+    >>> import halfmesh as hm
+    >>> hm.geometry.face_normals(hm.shapes.grid(1, 1)).tolist()
+    [[0.0, 0.0, 1.0]]
+    """
+    t = mesh.topology
+    n = len(t.face_halfedge)
+    normals = np.empty((n, 3))
+    run(_face_normals, n, t, points_of(mesh), normals)
+    return normals
+
+
+def vertex_normals(mesh: Mesh, *, weights: Literal["angle", "area"] = "angle") -> Floats:
+    """The unit normal of every vertex: the weighted mean of the normals of its faces.
+
+    Parameters
+    ----------
+    mesh : Mesh
+    weights : {"angle", "area"}
+        How much each face counts: by its angle at the vertex, which makes the normal independent of how the surface
+        is cut into faces (Thürmer and Wüthrich 1998), or by its area, which costs half as much.
+
+    Returns
+    -------
+    ndarray of float64, shape (n vertex slots, 3)
+        Zero where there is none: at isolated and deleted vertices, or where the faces cancel each other.
+
+    Raises
+    ------
+    ValueError
+        If `weights` is neither.
+
+    Notes
+    -----
+    O(n), on all threads. Faces first, then each vertex gathers along its ring: no two threads write to one place, and
+    the sum is always taken in the same order.
+
+    References
+    ----------
+    G. Thürmer, C. A. Wüthrich, "Computing vertex normals from polygonal facets", Journal of Graphics Tools 3 (1998).
+    N. Max, "Weights for computing vertex normals from facet normals", Journal of Graphics Tools 4 (1999), compares
+    these weights and others.
+
+    Examples
+    --------
+    >>> import halfmesh as hm
+    >>> hm.geometry.vertex_normals(hm.shapes.octahedron())[0].tolist()
+    [1.0, 0.0, 0.0]
+    """
+    t = mesh.topology
+    n = len(t.vertex_halfedge)
+    normals = np.empty((n, 3))
+    if weights == "angle":
+        run(_weighted_means, n, t, *normals_and_angles(mesh), normals)
+    elif weights == "area":
+        run(_means, n, t, face_vectors(mesh), normals)
+    else:
+        raise ValueError(f"weights must be 'angle' or 'area', not {weights!r}")
+    return normals
+
+
+@kernel
+def _face_normals(t: Any, points: Any, normals: Any, low: int, high: int) -> None:
+    for f in range(low, high):
+        normal = (0.0, 0.0, 0.0)
+        if halfedge_of_face(t, f) >= 0:
+            normal = face_normal(t, points, f)
+        normals[f, 0], normals[f, 1], normals[f, 2] = normal
+
+
+@kernel
+def _weighted_means(t: Any, vectors: Any, weights: Any, means: Any, low: int, high: int) -> None:
+    for v in range(low, high):
+        mean = (0.0, 0.0, 0.0)
+        for h in outgoing(t, v):
+            f = face_of(t, h)
+            if f >= 0:
+                mean = plus(mean, scaled(point(vectors, f), weights[h]))
+        means[v, 0], means[v, 1], means[v, 2] = unit(mean)
+
+
+@kernel
+def _means(t: Any, vectors: Any, means: Any, low: int, high: int) -> None:
+    for v in range(low, high):
+        mean = (0.0, 0.0, 0.0)
+        for h in outgoing(t, v):
+            f = face_of(t, h)
+            if f >= 0:
+                mean = plus(mean, point(vectors, f))
+        means[v, 0], means[v, 1], means[v, 2] = unit(mean)
