@@ -70,8 +70,11 @@ def empty_then_warm(command: list[str], rounds: int) -> list[dict[str, Any]]:
 def wall(command: list[str], **variables: str) -> float:
     """Seconds of a whole process, the interpreter's start included."""
     start = perf_counter()
-    subprocess.run(command, check=True, stdout=subprocess.DEVNULL, env=os.environ | variables)
-    return perf_counter() - start
+    done = subprocess.run(command, check=False, capture_output=True, text=True, env=os.environ | variables)
+    elapsed = perf_counter() - start
+    if done.returncode:
+        raise RuntimeError(f"exit code {done.returncode}: {(done.stderr.strip().splitlines() or [''])[-1]}")
+    return elapsed
 
 
 def halfmesh_command() -> str:

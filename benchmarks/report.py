@@ -65,7 +65,8 @@ def task_table(figures: Figures, task: Task) -> Table:
         records = [cells.get((peer, way, case)) for case in cases]
         told = [speed(record, figures.rival(task.name, case)) for record, case in zip(records, cases, strict=True)]
         rows.append([peer, way, *told, notes([record for record in records if record])])
-    return Table(task.title, ["library", "way", *cases, "notes"], rows, SPEEDS, remarks(figures, task))
+    caption = SPEEDS if any(peer != OURS for peer, _ in ways) else "The best time."
+    return Table(task.title, ["library", "way", *cases, "notes"], rows, caption, remarks(figures, task))
 
 
 def handle_table(figures: Figures, task: Task) -> Table:

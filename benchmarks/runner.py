@@ -20,7 +20,7 @@ from benchmarks.tasks import TASKS
 from benchmarks.timing import QUICK, Plan
 
 Record = dict[str, Any]
-LONG = 15.0  # seconds of one worker, after which further passes are not worth their time
+LONG = 6.0  # seconds of one worker, after which further passes are not worth their time
 
 
 def results_path(quick: bool) -> Path:
@@ -41,7 +41,8 @@ def run(
     results: Record = json.loads(path.read_text()) if path.exists() else {"libraries": {}, "records": []}
     results["machine"] = environment.facts()
     results["quick"] = quick
-    results["libraries"] |= {name: vars(outcome) for name, outcome in outcomes.items()}
+    told = results["libraries"] | {name: vars(outcome) for name, outcome in outcomes.items()}
+    results["libraries"] = {name: told[name] for name in environment.LIBRARIES if name in told}
     for task in (TASKS[name] for name in tasks):
         kept = [old for old in results["records"] if old["task"] != task.name or old["peer"] not in peers]
         new = []

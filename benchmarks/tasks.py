@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from benchmarks.build import BUILD, WORST
+from benchmarks.build import BUILD, POLYGONS, WORST
 from benchmarks.first_use import FIRST_USE
 from benchmarks.handles import HANDLES
 from benchmarks.memory import MEMORY
@@ -11,4 +11,6 @@ from benchmarks.reading import READING
 from benchmarks.rings import RINGS
 from benchmarks.writing import WRITING
 
-TASKS = {task.name: task for task in (BUILD, WORST, READING, WRITING, RINGS, HANDLES, NORMALS, MEMORY, FIRST_USE)}
+TASKS = {
+    task.name: task for task in (BUILD, WORST, POLYGONS, READING, WRITING, RINGS, HANDLES, NORMALS, MEMORY, FIRST_USE)
+}

@@ -21,8 +21,8 @@ class Verdict:
 
 
 def verdicts(figures: Figures) -> list[Verdict]:
-    return [*building(figures), *adversarial(figures), *memory(figures), *loops(figures), *files(figures),
-            *first_use(figures)]  # fmt: skip
+    groups = (building, adversarial, polygons, memory, loops, files, first_use)
+    return [row for group in groups for row in group(figures)]
 
 
 def at_least(what: str, bar: float, figure: float | None, unit: str, more: str = "") -> Verdict:
@@ -64,23 +64,24 @@ def building(figures: Figures) -> list[Verdict]:
 
 
 def adversarial(figures: Figures) -> list[Verdict]:
-    def ours(case: str) -> Record | None:
-        return figures.ours("worst", case)
-
-    sphere, large, rows = ours("sphere, to compare"), ours("large sphere"), []
+    sphere, rows = figures.ours("worst", "sphere, to compare"), []
     for case in ("fan, vertex 0", "fan, last vertex", "bipyramid", "book"):
-        record = ours(case)
+        record = figures.ours("worst", case)
         time = f", {record['best'] * 1e3:.1f} ms" if record else ""
         what = f"{case}: cost per triangle, to the coherent sphere's"
         rows.append(at_most(what, 3, ratio(record, sphere), "x", time))
-    book = ours("book")
+    book = figures.ours("worst", "book")
     refused = None if book is None else bool(book["facts"]["refused"])
-    rows.append(Verdict("book: refused", "yes", WORDS[refused], refused))
-    rows += [
-        at_most(f"{case}: cost per corner, to triangles'", 1.3, ratio(ours(case), large), "x")
+    return [*rows, Verdict("book: refused", "yes", WORDS[refused], refused)]
+
+
+def polygons(figures: Figures) -> list[Verdict]:
+    large = figures.ours("polygons", "large sphere")
+    rows = [
+        at_most(f"{case}: cost per corner, to triangles'", 1.3, ratio(figures.ours("polygons", case), large), "x")
         for case in ("quads", "quads and triangles")
     ]
-    per_corner = ratio(ours("one polygon"), large)
+    per_corner = ratio(figures.ours("polygons", "one polygon"), large)
     per_halfedge = None if per_corner is None else per_corner / 2  # each of its corners makes an exterior one too
     what = f"one polygon with {figures.plan.sides:,} sides: cost per halfedge, to triangles'"
     return [*rows, at_most(what, 1.3, per_halfedge, "x")]

@@ -30,7 +30,8 @@ def records(peer_name: str, task_name: str, case_name: str, plan: Plan) -> list[
     except NotOfferedError as reason:
         return [{"skipped": str(reason)}]
     except Exception as error:  # every failure of a library is a result
-        return [{"error": f"{type(error).__name__}: {error}".replace(str(ROOT), ".")[:300]}]
+        told = " ".join(f"{type(error).__name__}: {error}".split())
+        return [{"error": told.replace(str(ROOT), ".")[:300]}]
 
 
 if __name__ == "__main__":

@@ -60,7 +60,7 @@ class HalfMesh(Peer):
 
         def by_hand(columns: Any) -> Array:
             means = np.empty_like(points)
-            means_by_hand(*columns, points, means)
+            means_by_hand(*columns, points, means)  # type: ignore[call-arg]
             return means
 
         return {
@@ -132,7 +132,7 @@ def means_by_circulator(t, points, means):  # type: ignore[no-untyped-def]
             means[v, 2] = z / n
 
 
-@numba.njit(error_model="numpy", nogil=True)  # type: ignore[untyped-decorator]
+@numba.njit(error_model="numpy", nogil=True)
 def means_by_hand(vertex_halfedge, prev, origin, points, means):  # type: ignore[no-untyped-def]
     for v in range(len(vertex_halfedge)):
         start = vertex_halfedge[v]
