@@ -71,3 +71,13 @@ def test_picture_is_what_the_viewer_draws_today() -> None:
     drawn = structure_diagram(hm.Mesh(FIGURE_FACES, FIGURE_POINTS))
     kept = (ROOT / "docs/images/structure.svg").read_text(encoding="utf-8")
     assert kept == drawn, "write docs/images/structure.svg anew with halfmesh.viewer.save_structure_diagram"
+
+
+def test_page_of_the_command_line_names_every_command_and_option() -> None:
+    from halfmesh.cli.app import app
+
+    page = (ROOT / "docs/api/command-line.md").read_text(encoding="utf-8")
+    for name, command in app.commands.items():
+        assert f"## halfmesh {name}" in page
+        for option in command.params:
+            assert all(spelling in page for spelling in option.opts if spelling.startswith("--")), option
