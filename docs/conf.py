@@ -7,6 +7,8 @@ import inspect
 import pkgutil
 from importlib.metadata import version as version_of
 
+from sphinx.ext.napoleon import NumpyDocstring
+
 import halfmesh
 from halfmesh._jit import Circulator, Kernel
 
@@ -43,3 +45,5 @@ def _show_kernels_as_functions() -> None:
 
 
 _show_kernels_as_functions()
+# Napoleon takes a colon in a property's first sentence for "type: description".
+NumpyDocstring._parse_attribute_docstring = lambda self: self._consume_to_end()  # type: ignore[method-assign]
