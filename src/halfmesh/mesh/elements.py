@@ -136,7 +136,7 @@ class step(Generic[R]):  # noqa: N801 - used as a decorator
     def __get__(self, instance: Element | None, owner: type) -> step[R] | R:
         raise AssertionError("replaced by a property when the module is loaded")
 
-    def bind(self, kinds: dict[str, type[Element]]) -> property:
+    def bind(self, kinds: dict[str, type[Element]], per_slot: int) -> property:
         rule, kind, new = self.rule, kinds[self.kind], _new
 
         def get(self: Any) -> Any:
@@ -150,9 +150,14 @@ class step(Generic[R]):  # noqa: N801 - used as a decorator
             return made
 
         def get_checked(self: Any) -> Any:  # the rule is arithmetic, it sees no mark
-            if self._t.next[self._slot()] < 0:
+            t = self._t
+            index = self.index
+            if t.next[per_slot * index] < 0:
                 self._stale()
-            return get(self)
+            made = new(kind)
+            made._t = t
+            made.index = rule(t, index)
+            return made
 
         return property(get if self.reads else get_checked, doc=self.__doc__)
 
@@ -363,4 +368,4 @@ _KINDS: dict[str, type[Element]] = {"vertex": Vertex, "halfedge": Halfedge, "edg
 for _kind in _KINDS.values():
     for _name, _word in list(vars(_kind).items()):
         if isinstance(_word, step):
-            setattr(_kind, _name, _word.bind(_KINDS))
+            setattr(_kind, _name, _word.bind(_KINDS, 2 if _kind is Edge else 1))
