@@ -8,7 +8,7 @@ with any other keyword (curves, surfaces, what a writer forgot to mark as a comm
 from __future__ import annotations
 
 import re
-from typing import Any, NamedTuple, NoReturn
+from typing import NamedTuple, NoReturn
 
 import numpy as np
 from numpy.typing import NDArray
@@ -115,9 +115,8 @@ class _Text:
         for column, flag in ((textures, k.HAS_TEXTURE), (normals, k.HAS_NORMALS)):
             if not state[k.SEEN] & flag:
                 column[:n_corners] = -1
-        return _Piece(
-            *(column[:n_corners] for column in (corners, textures, normals)), edges[: 2 * state[k.EDGE]], state
-        )
+        n_edges = int(state[k.EDGE])
+        return _Piece(corners[:n_corners], textures[:n_corners], normals[:n_corners], edges[: 2 * n_edges], state)
 
     def _decide(self, undecided: NDArray[np.int64]) -> None:
         arrays = (self.points, self.extras, self.textures, self.normals)
@@ -188,9 +187,9 @@ def _gathered(values: NDArray[np.float64], rows: NDArray[np.int32]) -> NDArray[n
 
 
 def _joined(source: Source) -> NDArray[np.uint8]:
-    """The text with each backslash that joins two lines written as blanks; byte for byte at the same places.
+    r"""The text with each backslash that joins two lines written as blanks; byte for byte at the same places.
 
-    A comment ends with its line, backslash or not: paths like ``C:\\models\\`` stand there.
+    A comment ends with its line, backslash or not: paths like ``C:\models\`` stand there.
     """
     data = source.data
     if not (data == _BACKSLASH).any():

@@ -67,8 +67,10 @@ def keyword(b: Any, i: int, end: int) -> tuple[int, int]:
             return L, i + 1
         if c == 112:
             return P, i + 1
-    elif c == 118 and (d == 116 or d == 110) and (i + 2 >= end or is_end(b[i + 2])):
-        return (VT if d == 116 else VN), i + 2
+    elif c == 118 and d == 116 and (i + 2 >= end or is_end(b[i + 2])):
+        return VT, i + 2
+    elif c == 118 and d == 110 and (i + 2 >= end or is_end(b[i + 2])):
+        return VN, i + 2
     return OTHER, i
 
 
@@ -213,7 +215,7 @@ def read_lines(
                 texture += 1
             else:
                 normal += 1
-        elif kind == F or kind == L or kind == P:
+        elif F <= kind <= P:
             n = 0
             last = -1
             while True:

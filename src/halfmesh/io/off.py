@@ -10,6 +10,7 @@ stream of tokens, in which a vertex may span lines or share one.
 
 from __future__ import annotations
 
+import contextlib
 import functools
 import operator
 from collections.abc import Callable
@@ -20,6 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from halfmesh._jit import parallel
+from halfmesh.errors import FormatError
 from halfmesh.io import off_kernels as k
 from halfmesh.io.data import Attributes, MeshData
 from halfmesh.io.numbers import number_from_text, powers_of_ten
@@ -48,13 +50,23 @@ def read_off(source: Source) -> MeshData:
     if header.binary:
         return read_binary(source, header)
     header.check_counts(source)
-    text = _Text(source, header)
-    found = text.read()
-    text.check_end()
+    found = _read_text(source, header)
     data = MeshData(found.corners, found.offsets, header.points(found.values), meta={"comments": header.comments})
     data.vertex = header.attributes(found.values, found.dotted)
     data.face = _face_colors(found)
     return data
+
+
+def _read_text(source: Source, header: Header) -> _Elements:
+    text = _Text(source, header)
+    try:
+        return text.read()
+    except FormatError as error:
+        if text.by_lines:
+            raise
+        with contextlib.suppress(FormatError):  # faces may share a line if they have no colours
+            return _Text(source, header, most_extras=0).read()
+        raise error from None
 
 
 @dataclass
@@ -89,8 +101,8 @@ class _Part:
 
 
 class _Text:
-    def __init__(self, source: Source, header: Header) -> None:
-        self.source, self.header = source, header
+    def __init__(self, source: Source, header: Header, most_extras: int = k.MOST_EXTRAS) -> None:
+        self.source, self.header, self.most_extras = source, header, most_extras
         self.begin = header.body
         self.size = interpreted_size(source.end - self.begin)
         self.by_lines = True
@@ -123,6 +135,7 @@ class _Text:
     def read(self) -> _Elements:
         """All vertices and faces; each part is read on by its thread, across the border between the two."""
         pieces = parallel(self._read_part, [(part,) for part in self.parts])
+        self._check_end()
         offsets = np.zeros(self.header.n_faces + 1, dtype=np.int32)
         np.cumsum(self.degrees, out=offsets[1:])
         corners = np.concatenate([piece.corners for piece in pieces])
@@ -153,17 +166,18 @@ class _Text:
         run = k.read_faces.at(self.size)
         undecided = np.empty(2 * _MOST_OPEN, dtype=np.int64)
         corners = self.room[(part.begin - self.begin) // 2 :]
-        data, n_vertices = self.source.data, self.header.n_vertices
+        form = (self.header.n_vertices, self.by_lines, self.most_extras, self.powers)
+        data = self.source.data
         outputs = (corners, self.degrees, self.extras, self.n_extras, undecided, state)
 
         def step() -> None:
-            run(data, part.end, part.last_face, n_vertices, self.by_lines, self.powers, *outputs)
+            run(data, part.end, part.last_face, *form, *outputs)
 
         self._to_the_end(step, state, undecided, self.extras, "face")
         part.begin = int(state[k.POSITION])
         return corners[: state[k.CORNER]], int(state[k.SEEN])
 
-    def check_end(self) -> None:
+    def _check_end(self) -> None:
         """Refuse a file that goes on: its counts are wrong, and what would be left out is not ours to choose."""
         for part in self.parts:
             rest = skip_gaps.at(0 if part.begin == part.end else self.size)(self.source.data, part.begin, part.end)

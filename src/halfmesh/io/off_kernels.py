@@ -116,6 +116,7 @@ def read_faces(
     last: int,
     n_vertices: int,
     by_lines: bool,
+    most: int,
     powers: Any,
     corners: Any,
     degrees: Any,
@@ -124,7 +125,10 @@ def read_faces(
     undecided: Any,
     state: Any,
 ) -> None:
-    """Read faces up to face `last`: a degree, that many indices, and up to four more numbers until the line ends."""
+    """Read faces up to face `last`: a degree, that many indices, and up to `most` more numbers until the line ends.
+
+    With ``most == 0`` another face may follow on the same line.
+    """
     i = state[POSITION]
     face = state[ROW]
     corner = state[CORNER]
@@ -177,8 +181,8 @@ def read_faces(
         n = 0
         while i < end and is_blank(b[i]):
             i += 1
-        while i < end and not is_end(b[i]):
-            if n == MOST_EXTRAS:
+        while most > 0 and i < end and not is_end(b[i]):
+            if n == most:
                 code = LINE_GOES_ON
                 where = i
                 break
