@@ -18,7 +18,7 @@ project_copyright = "2026, The halfmesh authors"
 version = release = version_of("halfmesh")
 
 extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx.ext.napoleon", "sphinx.ext.mathjax", "sphinx.ext.viewcode"]
-exclude_patterns = ["_build"]
+exclude_patterns = ["_build", "decisions/README.md"]
 source_suffix = {".md": "markdown"}
 
 myst_enable_extensions = ["colon_fence", "deflist", "dollarmath"]
@@ -28,6 +28,8 @@ autodoc_member_order = "bysource"
 autodoc_typehints = "none"  # the docstrings name shapes and dtypes, which annotations cannot
 napoleon_google_docstring = False
 napoleon_use_rtype = False
+napoleon_use_ivar = True  # an Attributes section describes; the attributes themselves may be documented as well
+suppress_warnings = ["ref.python"]  # words in types, such as "(indices, offsets)", are no references
 
 html_theme = "furo"
 html_title = f"halfmesh {version}"
