@@ -5,7 +5,7 @@ A face list is flat: the vertices of all faces one after the other (the *corners
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from typing import Any
 
@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from halfmesh.core.topology import LIMIT
 from halfmesh.errors import InvalidMeshError
 
-__all__ = ["FaceList", "as_face_list", "as_indices"]
+__all__ = ["FaceList", "as_corner_data", "as_face_list", "as_indices"]
 
 Ints = NDArray[np.int32]
 
@@ -60,7 +60,9 @@ class FaceList:
         return np.repeat(np.arange(self.n_faces, dtype=np.int32), np.diff(self.offsets))
 
 
-def as_face_list(faces: Any, n_vertices: int | None = None, n_points: int | None = None) -> FaceList:
+def as_face_list(
+    faces: Any, n_vertices: int | None = None, n_points: int | None = None, wire: Ints | None = None
+) -> FaceList:
     """Cast what a user calls faces.
 
     Parameters
@@ -69,6 +71,8 @@ def as_face_list(faces: Any, n_vertices: int | None = None, n_points: int | None
         Any integer dtype and memory order; the ragged pair only as a tuple of two 1-D integer arrays.
     n_vertices, n_points : int, optional
         The number of vertices, as said and as given by the points.
+    wire : ndarray of shape (n, 2), optional
+        Edges without faces: they count where neither says the number of vertices.
 
     Raises
     ------
@@ -79,7 +83,7 @@ def as_face_list(faces: Any, n_vertices: int | None = None, n_points: int | None
     n_faces = len(offsets) - 1 if degree == 0 else len(corners) // degree
     if len(corners) > LIMIT:
         raise InvalidMeshError(f"{len(corners)} corners are more than int32 indices can name", reason="too_large")
-    n = _vertex_count(corners, n_vertices, n_points)
+    n = _vertex_count(corners if wire is None else np.r_[corners, wire.reshape(-1)], n_vertices, n_points)
     return FaceList(_as_int32(corners), degree, offsets, n_faces, n)
 
 
@@ -92,11 +96,9 @@ def _flat(faces: Any) -> tuple[NDArray[np.integer], int, Ints]:
 
 
 def _flat_array(faces: NDArray[Any]) -> tuple[NDArray[np.integer], int, Ints]:
-    if isinstance(faces, np.ma.MaskedArray):
-        raise InvalidMeshError("faces is a masked array; fill or drop the masked rows first", reason="bad_dtype")
     if faces.dtype == object and faces.ndim == 1:
         return _flat_lists(list(faces))
-    if faces.size == 0 and faces.ndim in (1, 2):
+    if faces.size == 0 and (faces.ndim == 1 or (faces.ndim == 2 and len(faces) == 0)):
         return np.zeros(0, dtype=np.int32), 3, _NOTHING
     if faces.ndim != 2:
         raise InvalidMeshError(
@@ -155,7 +157,7 @@ def _flat_lists(faces: Iterable[Any]) -> tuple[NDArray[np.integer], int, Ints]:
 
 def as_indices(array: Any, name: str, width: int | None = None) -> Ints:
     """Cast an array of indices: (n,) or, with `width`, (n, width)."""
-    array = np.asarray(array)
+    array = _as_array(array, name)
     if array.size == 0:
         return np.zeros((0,) if width is None else (0, width), dtype=np.int32)
     _check_integers(array, name)
@@ -164,7 +166,36 @@ def as_indices(array: Any, name: str, width: int | None = None) -> Ints:
     return _as_int32(np.ascontiguousarray(array))
 
 
+def _as_array(nested: Any, name: str) -> NDArray[Any]:
+    if isinstance(nested, np.ndarray):
+        return nested
+    try:
+        array = np.asarray(nested)
+    except (ValueError, OverflowError) as error:
+        raise InvalidMeshError(f"{name} is no array of integers: {error}", reason="bad_shape") from None
+    if array.ndim and array.dtype != object and any(isinstance(v, bool | np.bool_) for v in _leaves(nested)):
+        raise InvalidMeshError(f"{name} holds booleans; expected indices", reason="bad_dtype")
+    return array
+
+
+def _leaves(nested: Any) -> Iterator[Any]:
+    if isinstance(nested, list | tuple):
+        for item in nested:
+            yield from _leaves(item)
+    else:
+        yield nested
+
+
+def as_corner_data(values: Any, name: str) -> Ints:
+    """Cast indices that come one for each corner: flat, or in the shape of the faces."""
+    if not isinstance(values, np.ndarray) and any(isinstance(row, list | tuple | np.ndarray) for row in values):
+        values = [v for row in values for v in row]
+    return as_indices(values, name).reshape(-1)
+
+
 def _check_integers(array: NDArray[Any], name: str) -> None:
+    if isinstance(array, np.ma.MaskedArray):
+        raise InvalidMeshError(f"{name} is a masked array; fill or drop the masked entries first", reason="bad_dtype")
     if not np.issubdtype(array.dtype, np.integer):
         hint = ""
         if np.issubdtype(array.dtype, np.floating):
@@ -176,13 +207,16 @@ def _check_integers(array: NDArray[Any], name: str) -> None:
 
 
 def _as_int32(array: NDArray[np.integer]) -> Ints:
-    """int32 without wrapping around: what does not fit becomes -1, which is out of range and found as such."""
+    """int32 without wrapping around: what does not fit becomes -2, which is out of range and found as such.
+
+    In C order, aligned and writable: anything else is another type to a compiler, and would be compiled for again.
+    """
     if array.dtype == np.int32 and array.dtype.isnative:
-        return np.asarray(array)
+        return np.require(array, requirements=("C", "A", "W"))
     if array.size and not np.can_cast(array.dtype, np.int32):
         low, high = int(array.min()), int(array.max())
         if low < -(2**31) or high >= 2**31:
-            return np.where((array < 0) | (array > LIMIT), -1, array).astype(np.int32)
+            return np.where((array < -1) | (array > LIMIT), -2, array).astype(np.int32)
     return array.astype(np.int32)
 
 
@@ -200,7 +234,7 @@ def _vertex_count(corners: NDArray[np.integer], n_vertices: int | None, n_points
     top = int(corners.max()) + 1 if corners.size else 0
     if top > 16 * len(corners) + 1024:  # one stray index must not allocate gigabytes
         raise InvalidMeshError(
-            f"the largest index is {top - 1} but there are only {len(corners)} corners; "
+            f"the largest index is {top - 1} but there are only {len(corners)} entries; "
             "pass points or n_vertices if so many isolated vertices are meant",
             reason="index_out_of_range",
         )

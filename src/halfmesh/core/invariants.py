@@ -66,7 +66,7 @@ def _faces(t: Topology) -> Bad:
 
 
 def halfedge_links_in_range(t: Topology) -> Bad:
-    """next and prev are halfedges, origin is a vertex, face is a face or -1."""
+    """Next and prev are halfedges, origin is a vertex, face is a face or -1."""
     n, h = len(t.next), _halfedges(t)
     linked = (t.next[h] >= 0) & (t.next[h] < n) & (t.prev[h] >= 0) & (t.prev[h] < n)
     placed = (t.origin[h] >= 0) & (t.origin[h] < len(t.vertex_halfedge))
@@ -88,6 +88,12 @@ def face_halfedge_in_range(t: Topology) -> Bad:
 def edges_live_whole(t: Topology) -> Bad:
     """The two halfedges of an edge are deleted together."""
     return np.flatnonzero((t.next[::2] == DELETED) != (t.next[1::2] == DELETED))
+
+
+def the_deleted_are_marked_throughout(t: Topology) -> Bad:
+    """A deleted halfedge has the mark in all four columns, which is how handles notice."""
+    marks = np.stack([t.next == DELETED, t.prev == DELETED, t.origin == DELETED, t.face == DELETED])
+    return np.flatnonzero(marks.any(axis=0) & ~marks.all(axis=0))
 
 
 def nothing_alive_refers_to_deleted(t: Topology) -> Bad:
@@ -219,6 +225,7 @@ LAWS: dict[Callable[[Topology], Bad], str] = {
     vertex_halfedge_in_range: "vertices",
     face_halfedge_in_range: "faces",
     edges_live_whole: "edges",
+    the_deleted_are_marked_throughout: "halfedges",
     nothing_alive_refers_to_deleted: "halfedges",
     vertex_halfedge_is_alive: "vertices",
     face_halfedge_is_alive: "faces",

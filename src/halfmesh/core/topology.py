@@ -44,7 +44,7 @@ __all__ = [
 Ints = NDArray[np.int32]
 
 LIMIT = 2**31 - 2  # elements of a kind: indices are int32
-DELETED = -2  # in `next`, `vertex_halfedge`, `face_halfedge`: this slot's element was deleted
+DELETED = -4  # in all columns of a deleted element; like no -1 ("none"), nor the ccw of a mark: -4 ^ 1 is -3
 
 # places in `counts`
 VERTEX_SLOTS, EDGE_SLOTS, FACE_SLOTS = 0, 1, 2  # slots in use, deleted elements included

@@ -122,7 +122,7 @@ class AttributeTable(MutableMapping[str, NDArray[Any]]):
 
     def __setitem__(self, name: str, values: ArrayLike) -> None:
         array = np.array(values, order="C")
-        _checked_dtype(array.dtype)
+        array = array.astype(_checked_dtype(array.dtype), copy=False)
         if array.ndim == 0 or len(array) != self._size():
             raise ValueError(
                 f"{self._kind} data {name!r} needs {self._size()} rows, one for each {self._kind}; got shape {array.shape}"
@@ -158,16 +158,16 @@ class AttributeTable(MutableMapping[str, NDArray[Any]]):
             raise KeyError(f"an attribute's name is a non-empty string, not {name!r}")
         self._columns[name] = column
 
-    def _restore(self, columns: dict[str, NDArray[Any]]) -> None:
-        for name, values in columns.items():
-            self._set(name, Column(values))
+    def _columns_in_use(self) -> dict[str, Column]:
+        """Copies without spare room."""
+        return {name: column.copy(self._size()) for name, column in self._columns.items()}
 
-    def _copied_from(self, other: AttributeTable) -> None:
-        self._columns = {name: column.copy(other._size()) for name, column in other._columns.items()}
+    def _adopt(self, columns: dict[str, Column]) -> None:
+        self._columns = columns
 
 
 def _checked_dtype(dtype: DTypeLike) -> np.dtype[Any]:
     made = np.dtype(dtype)
     if made.hasobject:
         raise TypeError("attributes hold numbers, not Python objects; keep an integer label and a list beside it")
-    return made
+    return made.newbyteorder("=")  # compiled code knows no other

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from halfmesh.core.topology import DELETED
 from halfmesh.errors import ElementError, StaleElementError
-from halfmesh.mesh.elements import Element
+from halfmesh.mesh.elements import Element, made
 
 if TYPE_CHECKING:
     from halfmesh.mesh.mesh import Mesh
@@ -41,15 +41,15 @@ class Collection(Generic[E]):
         return np.flatnonzero(marks != DELETED)
 
     def __len__(self) -> int:
-        n: int = getattr(self._mesh, f"n_{'vertices' if self._kind.kind == 'vertex' else self._kind.kind + 's'}")
+        n: int = getattr(self._mesh, f"n_{self._kind.plural}")
         return n
 
     def __iter__(self) -> Iterator[E]:
         for i in self.indices.tolist():
-            yield self._kind(self._mesh, i)
+            yield self._made(i)
 
     def __getitem__(self, index: int) -> E:
-        return self._kind(self._mesh, self.resolve(index))
+        return self._made(self.resolve(index))
 
     def __contains__(self, element: object) -> bool:
         try:
@@ -73,9 +73,12 @@ class Collection(Generic[E]):
             raise ElementError(f"expected a {name} or its index, got {element!r}")
         slots = len(getattr(self._mesh.topology, self._kind.column)) // _PER_SLOT[name]
         if not 0 <= element < slots:
-            raise ElementError(f"no {name} {element}: indices run from 0 to {slots - 1}" if slots else f"there are no {name}s")
-        self._kind(self._mesh, int(element))._check()
+            raise ElementError(f"no {name} {element}: indices run from 0 to {slots - 1}" if slots else f"there are no {self._kind.plural}")
+        self._made(int(element))._check()
         return int(element)
+
+    def _made(self, index: int) -> E:
+        return made(self._kind, self._mesh.topology.__views__(), index)
 
     def __repr__(self) -> str:
         return f"<{len(self)} {self._kind.kind} handles of {self._mesh!r}>"

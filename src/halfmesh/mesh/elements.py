@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
     from halfmesh.mesh.mesh import Mesh
 
-__all__ = ["Edge", "Element", "Face", "Halfedge", "Vertex"]
+__all__ = ["Edge", "Element", "Face", "Halfedge", "Vertex", "made"]
 
 R = TypeVar("R")
 E = TypeVar("E", bound="Element")
@@ -39,18 +39,22 @@ class Element:
     __slots__ = ("_t", "index")
 
     kind: ClassVar[str]
+    plural: ClassVar[str]
     column: ClassVar[str]  # whose mark says that an element of this kind was deleted
     index: int
     _t: Any  # the interpreted carrier of the mesh
 
-    def __init__(self, mesh: Mesh, index: int) -> None:
+    def __init__(self, mesh: Mesh, index: int | Element) -> None:
+        self.index = getattr(mesh, self.plural).resolve(index)
         self._t = mesh.topology.__views__()
-        self.index = index
 
     @property
     def mesh(self) -> Mesh:
-        """The mesh that the element belongs to."""
-        return self._t.mesh  # type: ignore[no-any-return]
+        """The mesh that the element belongs to. A handle alone does not keep it."""
+        mesh: Mesh | None = self._t.mesh()
+        if mesh is None:
+            raise StaleElementError(f"the mesh of {self.kind} {self.index} is gone; keep a name for it")
+        return mesh
 
     @property
     def is_alive(self) -> bool:
@@ -79,12 +83,19 @@ class Element:
     def _walk(self, circulator: Any, kind: type[E]) -> Iterator[E]:
         """Handles along a circulator; a corrupt mesh raises instead of walking forever."""
         self._check()
-        t = self._t
-        limit = 2 * t.counts[1]
-        for n, i in enumerate(circulator.plain(t, self.index)):
-            if n > limit:
-                raise InvalidMeshError(f"the walk around {self.kind} {self.index} does not close; see mesh.check()")
-            yield _made(kind, t, i)
+        t, value = self._t, circulator.value and circulator.value.plain
+        step, end = circulator.step.plain, circulator.start.plain(t, self.index)
+        at = end
+        for _ in range(2 * t.counts[1]):
+            if at < 0:
+                return
+            found = at if value is None else value(t, at)
+            at = step(t, at)
+            if found >= 0 or not circulator.skips:
+                yield made(kind, t, found)
+            if at == end:
+                return
+        raise InvalidMeshError(f"the walk around {self.kind} {self.index} does not close; see mesh.check()")
 
     def _count(self, circulator: Any) -> int:
         return sum(1 for _ in self._walk(circulator, type(self)))
@@ -102,6 +113,9 @@ class Element:
             return NotImplemented
         return self.index < other.index
 
+    def __le__(self, other: Element) -> bool:
+        return NotImplemented if self.__lt__(other) is NotImplemented else self.index <= other.index
+
     def __hash__(self) -> int:
         return hash((self.kind, self.index))
 
@@ -112,11 +126,12 @@ class Element:
         raise TypeError("a handle means nothing without its mesh; pickle the mesh and keep handle.index")
 
 
-def _made(kind: type[E], t: Any, index: int) -> E:
-    made: E = _new(kind)
-    made._t = t
-    made.index = index
-    return made
+def made(kind: type[E], t: Any, index: int) -> E:
+    """A handle of what is known to be an element."""
+    handle: E = _new(kind)
+    handle._t = t
+    handle.index = index
+    return handle
 
 
 class step(Generic[R]):  # noqa: N801 - used as a decorator
@@ -166,7 +181,7 @@ class Vertex(Element):
     """A vertex: a point where edges meet."""
 
     __slots__ = ()
-    kind = "vertex"
+    kind, plural = "vertex", "vertices"
     column = "vertex_halfedge"
 
     @step(navigation.halfedge_of_vertex, "halfedge")
@@ -178,7 +193,7 @@ class Vertex(Element):
     def point(self) -> NDArray[np.float64]:
         """Its position, shape (3,): a view, writing into it moves the vertex."""
         self._check()
-        row: NDArray[np.float64] = self.mesh.points[self.index]
+        row: NDArray[np.float64] = self._t.vertex_data["points"][self.index]
         return row
 
     @property
@@ -223,7 +238,7 @@ class Halfedge(Element):
     """One of the two directed sides of an edge."""
 
     __slots__ = ()
-    kind = "halfedge"
+    kind, plural = "halfedge", "halfedges"
     column = "next"
 
     @step(navigation.twin_of, "halfedge", reads=False)
@@ -292,7 +307,7 @@ class Edge(Element):
     """An edge: two halfedges that run against each other."""
 
     __slots__ = ()
-    kind = "edge"
+    kind, plural = "edge", "edges"
     column = "next"
 
     def _slot(self) -> int:
@@ -325,7 +340,7 @@ class Edge(Element):
     def length(self) -> float:
         """Distance between its ends."""
         a, b = self.vertices
-        points = self.mesh.points
+        points = self._t.vertex_data["points"]
         return math.dist(points[a.index], points[b.index])
 
 
@@ -333,7 +348,7 @@ class Face(Element):
     """A face: a polygon of any number of sides, counter-clockwise."""
 
     __slots__ = ()
-    kind = "face"
+    kind, plural = "face", "faces"
     column = "face_halfedge"
 
     @step(navigation.halfedge_of_face, "halfedge")

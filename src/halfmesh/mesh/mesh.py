@@ -6,6 +6,7 @@ Nothing is computed here: rules and loops live in `core`, and every method is a 
 from __future__ import annotations
 
 import time
+import weakref
 from collections.abc import Callable
 from typing import Any, TypeVar
 
@@ -14,8 +15,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from halfmesh.core import counting, invariants, tables
 from halfmesh.core.construction import Defective, construct
-from halfmesh.core.diagnosis import explain, explain_twins
-from halfmesh.core.facelist import FaceList, as_face_list, as_indices
+from halfmesh.core.diagnosis import explain, explain_crowded, explain_twins
+from halfmesh.core.facelist import FaceList, as_corner_data, as_face_list, as_indices
 from halfmesh.core.search import find_halfedge
 from halfmesh.core.topology import (
     EDGE_SLOTS,
@@ -32,7 +33,7 @@ from halfmesh.core.wire import with_wire
 from halfmesh.errors import InvalidMeshError, PreconditionError
 from halfmesh.mesh.attributes import AttributeTable
 from halfmesh.mesh.collections import Collection
-from halfmesh.mesh.elements import Edge, Face, Halfedge, Vertex
+from halfmesh.mesh.elements import Edge, Face, Halfedge, Vertex, made
 from halfmesh.mesh.summary import Summary, summarize
 
 __all__ = ["Mesh"]
@@ -96,9 +97,7 @@ class Mesh:
         started = time.perf_counter()
         positions = None if points is None else _as_points(points)
         wire = None if edges is None else as_indices(edges, "edges", 2)
-        if positions is None and n_vertices is None and wire is not None and not len(faces):
-            n_vertices = int(wire.max()) + 1 if len(wire) else 0
-        face_list = as_face_list(faces, n_vertices, None if positions is None else len(positions))
+        face_list = as_face_list(faces, n_vertices, None if positions is None else len(positions), wire)
         topology = _topology(face_list, twins)
         if wire is not None and len(wire):
             topology = with_wire(topology, wire)
@@ -112,17 +111,37 @@ class Mesh:
     def _hold(self, topology: Topology) -> None:
         self._topology = topology
         self._t = topology.__views__()
-        self._t.mesh = self
         self._cache: dict[str, tuple[int, Any]] = {}
-        self.vertices = Collection(self, Vertex)
-        self.halfedges = Collection(self, Halfedge)
-        self.edges = Collection(self, Edge)
-        self.faces = Collection(self, Face)
         counts = self._t.counts
         self.vertex_data = AttributeTable("vertex", lambda: counts[VERTEX_SLOTS], required=("points",))
         self.halfedge_data = AttributeTable("halfedge", lambda: 2 * counts[EDGE_SLOTS])
         self.edge_data = AttributeTable("edge", lambda: counts[EDGE_SLOTS])
         self.face_data = AttributeTable("face", lambda: counts[FACE_SLOTS])
+        # Nothing that the mesh holds may hold the mesh: a cycle would keep its columns until the collector comes round.
+        self._t.mesh = weakref.ref(self)
+        self._t.vertex_data = self.vertex_data
+
+    # -- elements ------------------------------------------------------------------------------------------------
+
+    @property
+    def vertices(self) -> Collection[Vertex]:
+        """The vertices: iterate, ``len``, ``[index]``, ``in``."""
+        return Collection(self, Vertex)
+
+    @property
+    def halfedges(self) -> Collection[Halfedge]:
+        """The halfedges: iterate, ``len``, ``[index]``, ``in``."""
+        return Collection(self, Halfedge)
+
+    @property
+    def edges(self) -> Collection[Edge]:
+        """The edges: iterate, ``len``, ``[index]``, ``in``."""
+        return Collection(self, Edge)
+
+    @property
+    def faces(self) -> Collection[Face]:
+        """The faces: iterate, ``len``, ``[index]``, ``in``."""
+        return Collection(self, Face)
 
     # -- what is stored ------------------------------------------------------------------------------------------
 
@@ -264,7 +283,7 @@ class Mesh:
         Where edges are parallel, one of them.
         """
         h = find_halfedge.plain(self._t, self.vertices.resolve(u), self.vertices.resolve(v))
-        return None if h < 0 else Halfedge(self, h)
+        return None if h < 0 else made(Halfedge, self._t, h)
 
     def boundary_loops(self) -> list[Ints]:
         """The halfedges of each boundary loop, along next: a list of int32 arrays. O(n) after a change, then kept."""
@@ -341,7 +360,7 @@ class Mesh:
         made._hold(self._topology.copy())
         made.has_points, made.build_seconds = self.has_points, self.build_seconds
         for name in _TABLES:
-            getattr(made, name)._copied_from(getattr(self, name))
+            getattr(made, name)._adopt(getattr(self, name)._columns_in_use())
         return made
 
     __copy__ = copy
@@ -350,14 +369,14 @@ class Mesh:
         return self.copy()
 
     def __getstate__(self) -> dict[str, Any]:
-        state: dict[str, Any] = {name: dict(getattr(self, name)) for name in _TABLES}
+        state: dict[str, Any] = {name: getattr(self, name)._columns_in_use() for name in _TABLES}
         return state | {"topology": self._topology, "has_points": self.has_points, "build_seconds": self.build_seconds}
 
     def __setstate__(self, state: dict[str, Any]) -> None:
         self._hold(state["topology"])
         self.has_points, self.build_seconds = state["has_points"], state["build_seconds"]
         for name in _TABLES:
-            getattr(self, name)._restore(state[name])
+            getattr(self, name)._adopt(state[name])
 
     def __repr__(self) -> str:
         kind = "with boundary" if self.has_boundary else "closed"
@@ -385,7 +404,7 @@ _TABLES = ("vertex_data", "halfedge_data", "edge_data", "face_data")
 
 
 def _topology(faces: FaceList, twins: ArrayLike | None) -> Topology:
-    given = None if twins is None else as_indices(twins, "twins").reshape(-1)
+    given = None if twins is None else as_corner_data(twins, "twins")
     if given is not None and len(given) != faces.n_corners:
         raise InvalidMeshError(f"twins has {len(given)} entries for {faces.n_corners} corners", reason="bad_twins")
     try:
@@ -394,13 +413,18 @@ def _topology(faces: FaceList, twins: ArrayLike | None) -> Topology:
         raise (explain(faces) if given is None else explain_twins(faces, given)) from None
     except OverflowError as error:
         raise InvalidMeshError(str(error), reason="too_large") from None
-    if given is not None and len(invariants.one_ring_holds_all_of_a_vertex(topology)):
-        raise explain_twins(faces, given)
+    if given is not None and len(crowded := invariants.one_ring_holds_all_of_a_vertex(topology)):
+        raise explain_crowded(faces, crowded)
     return topology
 
 
 def _as_points(points: ArrayLike) -> Floats:
-    array = np.asarray(points)
+    if isinstance(points, np.ma.MaskedArray):
+        raise InvalidMeshError("points is a masked array; fill or drop the masked rows first", reason="bad_points")
+    try:
+        array = np.asarray(points)
+    except ValueError as error:
+        raise InvalidMeshError(f"points is no array of numbers: {error}", reason="bad_points") from None
     if array.size == 0 and array.ndim <= 2:
         return np.zeros((0, 3))
     if array.dtype.kind not in "iuf":
