@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
@@ -18,9 +19,12 @@ Floats = NDArray[np.float64]
 _PART = 20_000  # elements; below that a second thread costs more than it saves
 
 
-def run(kernel: Kernel[Any, Any], n: int, *arguments: Any) -> None:
-    """Call ``kernel(*arguments, low, high)`` on ranges that make up 0..n; each must write to its own places only."""
-    parallel(kernel.at(n), [(*arguments, low, high) for low, high in ranges(n)])
+def run(kernel: Kernel[Any, Any], n: int, *arguments: Any, scratch: Callable[[], tuple[Any, ...]] = tuple) -> None:
+    """Call ``kernel(*arguments, *scratch(), low, high)`` on ranges that make up 0..n.
+
+    Each call must write to its own places only; `scratch` makes the arrays that a range has for itself.
+    """
+    parallel(kernel.at(n), [(*arguments, *scratch(), low, high) for low, high in ranges(n)])
 
 
 def ranges(n: int) -> list[tuple[int, int]]:

@@ -10,8 +10,9 @@ from halfmesh._jit import kernel
 from halfmesh.core.circulation import outgoing
 from halfmesh.core.navigation import face_of, halfedge_of_face
 from halfmesh.geometry._passes import Floats, points_of, run
+from halfmesh.geometry._ring_normals import buffers, ring_normals
 from halfmesh.geometry._vectors import plus, point, scaled, unit
-from halfmesh.geometry.angles import normals_and_angles
+from halfmesh.geometry.angles import corner_angles
 from halfmesh.geometry.areas import face_vectors
 from halfmesh.geometry.kernels import face_normal
 
@@ -91,8 +92,10 @@ def vertex_normals(mesh: Mesh, *, weights: Literal["angle", "area"] = "angle") -
     t = mesh.topology
     n = len(t.vertex_halfedge)
     normals = np.empty((n, 3))
-    if weights == "angle":
-        run(_weighted_means, n, t, *normals_and_angles(mesh), normals)
+    if weights == "angle" and mesh.is_triangular:
+        run(ring_normals, n, t, points_of(mesh), normals, scratch=buffers)
+    elif weights == "angle":
+        run(_weighted_means, n, t, face_normals(mesh), corner_angles(mesh), normals)
     elif weights == "area":
         run(_means, n, t, face_vectors(mesh), normals)
     else:
