@@ -30,7 +30,7 @@ def rows(*folders: str) -> list[Row]:
 
 
 def _wanted(path: str, folders: tuple[str, ...]) -> bool:
-    return path.split("/")[0] in folders and path.lower().endswith((".off", ".obj"))
+    return path.startswith(tuple(f"{folder}/" for folder in folders)) and path.lower().endswith((".off", ".obj"))
 
 
 def _row(row: dict[str, str]) -> Row:

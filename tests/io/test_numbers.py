@@ -19,7 +19,9 @@ from halfmesh.io.shortest import MOST_BYTES, UNWRITTEN, number_to_text, write_nu
 
 INTERPRETED = number.plain  # over memoryviews, as `kernel.at` calls it for small files
 GEARS = [number, INTERPRETED]
-FLOATS = st.floats(allow_nan=False) | st.integers(0, 2**64 - 1).map(lambda i: struct.unpack("<d", struct.pack("<Q", i))[0])
+FLOATS = st.floats(allow_nan=False) | st.integers(0, 2**64 - 1).map(
+    lambda i: struct.unpack("<d", struct.pack("<Q", i))[0]
+)
 MANTISSA = st.from_regex(r"[0-9]{0,25}\.?[0-9]{0,25}", fullmatch=True).filter(lambda s: any(c.isdigit() for c in s))
 DECIMALS = st.tuples(st.sampled_from(["", "-", "+"]), MANTISSA, st.just("") | st.integers(-340, 330).map("e{}".format))
 
@@ -38,7 +40,7 @@ def parsed(gear: object, text: str) -> tuple[float | None, int]:
     return (number_from_text(text.encode()) if kind == UNDECIDED else float(value)), int(kind)
 
 
-@given(FLOATS.filter(lambda x: x == x))
+@given(FLOATS.filter(lambda x: not math.isnan(x)))
 @example(5e-324)
 @example(1.7976931348623157e308)
 @example(9007199254740993.0)
@@ -78,7 +80,7 @@ def test_words_and_overflow_are_those_of_float(text: str) -> None:
 
 
 @pytest.mark.parametrize(
-    "text", ["0x1p3", "1_000", "1,5", "1d5", "--1", "+", ".", "e5", "1e", "1e+", "1.2.3", "nan(ind)", "1X", "١"]
+    "text", ["0x1p3", "1_000", "1,5", "1d5", "--1", "+", ".", "e5", "1e", "1e+", "1.2.3", "nan(ind)", "1X", "\u0661"]
 )
 def test_what_is_no_decimal_number_is_refused(text: str, tmp_path: Path) -> None:
     assert parsed(number, text) == (None, UNDECIDED)

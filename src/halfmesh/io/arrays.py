@@ -32,6 +32,7 @@ def as_data(
     face_list = as_face_list(faces, n_points=n)
     _check_range(face_list.corners, n, "faces")
     data = MeshData(face_list.corners, face_list.begins(), positions)
+    _check_degrees(data)
     if edges is not None:
         data.edges = as_indices(edges, "edges", 2)
         _check_range(data.edges, n, "edges")
@@ -65,6 +66,16 @@ def _check_range(indices: NDArray[np.int32], n: int, what: str) -> None:
             f"{what} refer to vertices outside 0..{n - 1} (given {n} points): {bad[:5].tolist()}",
             reason="index_out_of_range",
             elements={"vertices": bad},
+        )
+
+
+def _check_degrees(data: MeshData) -> None:
+    small = np.flatnonzero(np.diff(data.offsets) < 3)
+    if len(small):
+        raise InvalidMeshError(
+            f"{len(small)} faces have fewer than 3 vertices: {small[:5].tolist()}; pass edges as edges=",
+            reason="small_face",
+            elements={"faces": small},
         )
 
 

@@ -147,7 +147,7 @@ def number(b: Any, i: int, end: int, powers: Any) -> tuple[float, int, int]:
         if i == start:
             n_digits = 0
         e += -exponent if down else exponent
-    if n_digits == 0 or (i < end and not is_end(b[i])):
+    if n_digits == 0 or (i < end and (b[i] == 35 or not is_end(b[i]))):  # 1.#IND is no 1 with a comment
         while i < end and not is_end(b[i]):
             i += 1
         return 0.0, i, UNDECIDED

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from halfmesh._jit import parallel
 from halfmesh.io import obj_kernels as k
 from halfmesh.io.data import Attributes, MeshData
-from halfmesh.io.numbers import number_from_text, powers_of_ten
+from halfmesh.io.numbers import powers_of_ten
 from halfmesh.io.obj_labels import read_labels
 from halfmesh.io.source import Source, interpreted_size
 
@@ -121,10 +121,7 @@ class _Text:
     def _decide(self, undecided: NDArray[np.int64]) -> None:
         arrays = (self.points, self.extras, self.textures, self.normals)
         for at, place in undecided.tolist():
-            value = number_from_text(self.source.token(at))
-            if value is None:
-                raise self.source.error(f"expected a number, found {self.source.shown(at)}", at)
-            arrays[place % 4][place // 4] = value
+            arrays[place % 4][place // 4] = self.source.number(at)
 
     def _raise(self, code: int, at: int) -> NoReturn:
         shown = self.source.shown(at).strip("'")

@@ -24,7 +24,7 @@ from halfmesh._jit import parallel
 from halfmesh.errors import FormatError
 from halfmesh.io import off_kernels as k
 from halfmesh.io.data import Attributes, MeshData
-from halfmesh.io.numbers import number_from_text, powers_of_ten
+from halfmesh.io.numbers import powers_of_ten
 from halfmesh.io.off_binary import read_binary
 from halfmesh.io.off_header import Header, as_color, read_header
 from halfmesh.io.source import Source, count_lines, interpreted_size, skip_gaps
@@ -58,14 +58,16 @@ def read_off(source: Source) -> MeshData:
 
 
 def _read_text(source: Source, header: Header) -> _Elements:
+    """By lines; if a line is too short, as a stream of tokens. What is wrong then is said of the lines."""
     text = _Text(source, header)
     try:
         return text.read()
     except FormatError as error:
-        if text.by_lines:
+        if not (text.has_short_line or text.as_stream):
             raise
-        with contextlib.suppress(FormatError):  # faces may share a line if they have no colours
-            return _Text(source, header, most_extras=0).read()
+        for most_extras in (k.MOST_EXTRAS, 0):  # faces may share a line if they have no colours
+            with contextlib.suppress(FormatError):
+                return _Text(source, header, as_stream=True, most_extras=most_extras).read()
         raise error from None
 
 
@@ -101,13 +103,15 @@ class _Part:
 
 
 class _Text:
-    def __init__(self, source: Source, header: Header, most_extras: int = k.MOST_EXTRAS) -> None:
+    def __init__(
+        self, source: Source, header: Header, *, as_stream: bool = False, most_extras: int = k.MOST_EXTRAS
+    ) -> None:
         self.source, self.header, self.most_extras = source, header, most_extras
         self.begin = header.body
         self.size = interpreted_size(source.end - self.begin)
-        self.by_lines = True
-        self.parts = self._parts()
-        self.width = header.width(source) if self.by_lines else header.least_width
+        self.as_stream, self.has_short_line = as_stream, False
+        self.parts = [self._whole()] if as_stream else self._parts()
+        self.width = header.least_width if self.as_stream else header.width(source)
         self.powers = powers_of_ten()
         n_faces = header.n_faces
         self.values = np.empty((header.n_vertices, self.width))
@@ -121,8 +125,8 @@ class _Text:
         spans = self.source.parts(self.begin)
         lines = parallel(count_lines.at(self.size), [(self.source.data, *span) for span in spans])
         if sum(lines) < n_vertices + n_faces:
-            self.by_lines = False
-            return [_Part(self.begin, self.source.end, 0, n_vertices, 0, n_faces)]
+            self.as_stream = True
+            return [self._whole()]
         parts, line = [], 0
         for (begin, end), n in zip(spans, lines, strict=True):
             rows = (line, line + n)
@@ -131,6 +135,9 @@ class _Text:
             parts.append(_Part(begin, end, vertex, last_vertex, face, last_face))
             line += n
         return parts
+
+    def _whole(self) -> _Part:
+        return _Part(self.begin, self.source.end, 0, self.header.n_vertices, 0, self.header.n_faces)
 
     def read(self) -> _Elements:
         """All vertices and faces; each part is read on by its thread, across the border between the two."""
@@ -155,7 +162,7 @@ class _Text:
         data, values = self.source.data, self.values.reshape(-1)
 
         def step() -> None:
-            run(data, part.end, part.last_vertex, self.width, self.by_lines, self.powers, values, undecided, state)
+            run(data, part.end, part.last_vertex, self.width, not self.as_stream, self.powers, values, undecided, state)
 
         self._to_the_end(step, state, undecided, values, "vertex")
         part.begin = int(state[k.POSITION])
@@ -166,7 +173,7 @@ class _Text:
         run = k.read_faces.at(self.size)
         undecided = np.empty(2 * _MOST_OPEN, dtype=np.int64)
         corners = self.room[(part.begin - self.begin) // 2 :]
-        form = (self.header.n_vertices, self.by_lines, self.most_extras, self.powers)
+        form = (self.header.n_vertices, not self.as_stream, self.most_extras, self.powers)
         data = self.source.data
         outputs = (corners, self.degrees, self.extras, self.n_extras, undecided, state)
 
@@ -202,12 +209,10 @@ class _Text:
 
     def _decide(self, undecided: NDArray[np.int64], values: NDArray[np.float64]) -> None:
         for at, place in undecided.tolist():
-            value = number_from_text(self.source.token(at))
-            if value is None:
-                raise self.source.error(f"expected a number, found {self.source.shown(at)}", at)
-            values[place] = value
+            values[place] = self.source.number(at)
 
     def _raise(self, code: int, at: int, row: int, kind: str) -> NoReturn:
+        self.has_short_line |= code == k.LINE_ENDS
         raise self.source.error(self._complaint(code, at, row, kind), at)
 
     def _complaint(self, code: int, at: int, row: int, kind: str) -> str:

@@ -87,7 +87,7 @@ class _Attempt:
         return self._walk(3 + header.n_vertices * header.least_width)
 
     def _walk(self, at: int) -> bool:
-        words = np.ascontiguousarray(self.words[at:], dtype=np.int32)
+        words = self.words[at:].astype(np.int32)  # aligned, and of the machine's own byte order
         header, n = self.header, len(words)
         self.corners = np.empty(n, dtype=np.int32)
         self.degrees = np.empty(header.n_faces, dtype=np.int32)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 import os
+import re
 import stat
 
 import numpy as np
@@ -11,7 +12,7 @@ from numpy.typing import NDArray
 
 from halfmesh._jit import kernel, n_threads
 from halfmesh.errors import FormatError
-from halfmesh.io.numbers import is_end
+from halfmesh.io.numbers import is_end, number_from_text
 
 __all__ = ["Source", "interpreted_size", "n_parts"]
 
@@ -19,6 +20,7 @@ Bytes = NDArray[np.uint8]
 
 _PART = 500_000  # bytes; below that a second thread costs more than it saves
 _MOST_SHOWN = 40
+_NO_NUMBER = re.compile(rb"#[IQS][A-Z]")
 
 
 def interpreted_size(n_bytes: int) -> int:
@@ -94,6 +96,21 @@ class Source:
             if n >= 0 or at + size >= self.end:
                 return bytes(window[:n] if n >= 0 else window)
             size *= 8
+
+    def number(self, at: int) -> float:
+        """What ``float()`` makes of the token that begins at `at`.
+
+        Raises
+        ------
+        FormatError
+            If it is not a number; also for ``1.#IND`` and its kind, which C programs on Windows wrote for NaN.
+        """
+        token = self.token(at)
+        value = number_from_text(token)
+        behind = bytes(self.data[at + len(token) : at + len(token) + 3])
+        if value is None or _NO_NUMBER.match(behind):
+            raise self.error(f"expected a number, found {self.shown(at)}", at)
+        return value
 
     def shown(self, at: int) -> str:
         """The token that begins at `at`, fit for a message."""
