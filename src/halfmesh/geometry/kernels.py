@@ -144,12 +144,13 @@ def corner_angle(t: Any, points: Any, h: int) -> float:
 
     O(1) in a triangle, O(degree) in other faces, whose normal tells a reflex corner.
     """
-    f = face_of(t, h)
-    if f < 0:
+    if face_of(t, h) < 0:
         return 0.0
     normal = (0.0, 0.0, 0.0)
     if next_of(t, next_of(t, h)) != prev_of(t, h):
-        normal = face_normal(t, points, f)
+        if prev_of(t, h) == twin_of(t, h):
+            return 2.0 * math.pi  # the end of a slit: the face is all around
+        normal = face_normal(t, points, face_of(t, h))
     sine, cosine = corner_turn(t, points, h, normal)
     return angle_from(sine, cosine)
 
@@ -157,12 +158,9 @@ def corner_angle(t: Any, points: Any, h: int) -> float:
 @kernel
 def corner_turn(t: Any, points: Any, h: int, normal: Vector) -> tuple[float, float]:
     """Sine and cosine of a corner angle times the lengths of its two edges; the sine is negative at a reflex corner."""
-    before = prev_of(t, h)
-    if before == twin_of(t, h):
-        return -1e-300, 1.0  # the end of a slit: the face is all around
     corner = point(points, origin_of(t, h))
     a = difference(point(points, target_of(t, h)), corner)
-    b = difference(point(points, origin_of(t, before)), corner)
+    b = difference(point(points, origin_of(t, prev_of(t, h))), corner)
     across = cross(a, b)
     sine = length(across)
     if dot(across, normal) < 0.0:
