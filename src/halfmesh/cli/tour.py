@@ -1,0 +1,71 @@
+"""The demo as it is printed."""
+
+from __future__ import annotations
+
+import platform
+import time
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+from rich.text import Text
+
+import halfmesh as hm
+from halfmesh import _jit
+from halfmesh.cli.pages import console, print_table
+from halfmesh.cli.words import complaint_about
+from halfmesh.demo import Section, draw_structure, explore, make_example
+from halfmesh.errors import HalfmeshError
+from halfmesh.warmup import n_compiled_here
+
+if TYPE_CHECKING:
+    from rich.console import Console
+
+__all__ = ["show_tour"]
+
+
+def show_tour(files: tuple[Path, ...], folder: Path, size: str) -> list[str]:
+    """Print the demo on these files, or on a mesh that it makes; what went wrong with which file."""
+    out = console()
+    started = time.perf_counter()
+    versions = f"halfmesh {hm.__version__}, Python {platform.python_version()}, NumPy {np.__version__}"
+    out.print(Text(f"{versions}, {_jit.n_threads()} threads", style="dim"))
+    complaints = []
+    if not files:
+        path, section = make_example(folder, size)
+        _show(out, section)
+        files = (path,)
+    for path in files:
+        try:
+            for section in explore(path):
+                _show(out, section)
+        except (HalfmeshError, OSError) as error:
+            complaints.append(complaint_about(path, error))
+    _show(out, draw_structure(folder))
+    _show_end(out, time.perf_counter() - started)
+    return complaints
+
+
+def _show(out: Console, section: Section) -> None:
+    out.print()
+    out.print(Text(section.title, style="bold"))
+    for line in section.text:
+        out.print(Text(f"  {line}"))
+    if section.code:
+        if section.text:
+            out.print()
+        for line in section.code.splitlines():
+            out.print(Text(f"    {line}", style="cyan"))
+        out.print()
+    if section.rows:
+        print_table(out, section.rows, header=section.header, figures=section.figures, codes=section.codes)
+    for line in section.remarks:
+        out.print(Text(f"  {line}"))
+
+
+def _show_end(out: Console, seconds: float) -> None:
+    n = n_compiled_here()
+    compiled = f"{n} kernels compiled on the way" if n else "nothing had to be compiled: the kernels"
+    out.print()
+    out.print(Text(f"{seconds:.1f} s in all; {compiled} are kept in", style="dim"))
+    out.print(Text(str(_jit.cache_folder()), style="dim"), soft_wrap=True)

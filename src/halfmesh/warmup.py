@@ -1,0 +1,231 @@
+"""Compile everything now: the work behind ``halfmesh warmup``.
+
+A kernel is compiled for the types of its arguments at its first call. So each job below does something ordinary with
+a tiny mesh, in the gear that always compiles; together the jobs come past every kernel, which a test asserts.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import importlib
+import pkgutil
+import sys
+import tempfile
+import types
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+import halfmesh as hm
+from halfmesh import _jit
+from halfmesh.core.search import find_halfedge
+
+__all__ = ["jobs", "kernels_of", "n_compiled_here", "n_from_cache", "never_compiled", "warm_up"]
+
+Job = tuple[str, Callable[[Path], object]]
+
+
+def warm_up() -> Iterator[tuple[str, int, int]]:
+    """Compile all kernels of the library, or read them from the cache.
+
+    Yields
+    ------
+    (name, i, n) : str, int, int
+        Before each of the `n` jobs, and once more with ``i == n`` when all is done.
+
+    Notes
+    -----
+    Safe to run again: what is in the cache is only read. Half a minute at most where nothing is.
+    """
+    todo = jobs()
+    with _jit.compiling_always(), tempfile.TemporaryDirectory() as folder:
+        for i, (name, job) in enumerate(todo):
+            yield name, i, len(todo)
+            job(Path(folder))
+    yield "done", len(todo), len(todo)
+
+
+def jobs() -> list[Job]:
+    """Ordinary things to do with tiny meshes, which together come past every kernel."""
+    return [
+        ("building triangles", lambda _: hm.shapes.icosphere(1)),
+        ("building polygons", lambda _: _polygons()),
+        ("building fans, twins and wire", lambda _: _unusual()),
+        ("refusing what can't be held", lambda _: _refused()),
+        ("checking the laws", lambda _: _polygons().check()),
+        ("counting", lambda _: _polygons().summary()),
+        ("gathering neighbors", lambda _: _gather(_polygons())),
+        ("measuring polygons", lambda _: _measure(hm.shapes.cube())),
+        ("measuring triangles", lambda _: _measure(hm.shapes.tetrahedron())),
+        ("measuring in kernels", lambda _: _measure_one(hm.shapes.cube())),
+        ("writing and reading OFF", lambda folder: _there_and_back(folder / "mesh.off")),
+        ("writing and reading OBJ", lambda folder: _there_and_back(folder / "mesh.obj")),
+        ("reading OFF in other forms", _read_other_forms),
+        ("walking in kernels", lambda _: _walk(hm.shapes.cube(), 0)),
+        ("smoothing", lambda _: _smooth()),
+    ]
+
+
+def _polygons() -> hm.Mesh:
+    """A square and a triangle, with a boundary, and an isolated vertex."""
+    return hm.Mesh([[0, 1, 2, 3], [1, 4, 2]], np.array([[0, 0], [1, 0], [1, 1], [0, 1], [2, 0.5], [3, 3]]))
+
+
+def _unusual() -> None:
+    hm.Mesh([[0, 1, 2], [0, 3, 4]])  # two fans at a vertex
+    hm.Mesh([[0, 1, 2], [0, 2, 1]], twins=[5, 4, 3, 2, 1, 0])
+    hm.Mesh([[0, 1, 2, 3], [1, 4, 2]], twins=(np.array([-1, 6, -1, -1, -1, -1, 1])))
+    hm.Mesh([[0, 1, 2]], edges=[[2, 3]], n_vertices=4)
+
+
+def _refused() -> None:
+    crowded, disagreeing = [[0, 1, 2], [1, 0, 3], [0, 1, 4]], [[0, 1, 2], [0, 1, 3]]
+    for faces in (crowded, disagreeing, hm.shapes.moebius_faces()[0]):
+        with contextlib.suppress(hm.InvalidMeshError):
+            hm.Mesh(faces)
+
+
+def _gather(mesh: hm.Mesh) -> None:
+    for question in (mesh.face_vertices, mesh.face_neighbors, mesh.vertex_neighbors, mesh.vertex_faces):
+        question()
+    find_halfedge(mesh, 0, 1)
+
+
+def _measure(mesh: hm.Mesh) -> None:
+    for name in hm.geometry.__all__:
+        measure = getattr(hm.geometry, name)
+        if callable(measure):
+            measure(mesh)
+    hm.geometry.vertex_normals(mesh, weights="area")
+
+
+def _measure_one(mesh: hm.Mesh) -> None:
+    """The formulas that nothing in the library calls alone: they wait for the user's kernels."""
+    block = hm.geometry.kernels
+    for formula in (block.edge_length, block.face_area, block.face_centroid, block.corner_angle):
+        formula(mesh, mesh.points, 0)
+
+
+def _there_and_back(path: Path) -> None:
+    for mesh in (hm.shapes.icosphere(0), _polygons(), _decorated()):
+        hm.save(mesh, path)
+        hm.load(path)
+
+
+def _decorated() -> hm.Mesh:
+    mesh = _polygons()
+    mesh.vertex_data["normal"] = np.tile([0.0, 0.0, 1.0], (mesh.n_vertices, 1))
+    mesh.vertex_data["color"] = np.full((mesh.n_vertices, 4), 0.5)
+    mesh.halfedge_data["texcoord"] = np.zeros((mesh.n_halfedges, 2))
+    return mesh
+
+
+def _read_other_forms(folder: Path) -> None:
+    square = "0 0 0  1 0 0  1 1 0  0 1 0"
+    numbers = [[4, 1, 4], [float(x) for x in square.split()], [4, 0, 1, 2, 3, 0]]
+    big = [np.array(row, dtype).tobytes() for row, dtype in zip(numbers, (">i4", ">f4", ">i4"), strict=True)]
+    (folder / "stream.off").write_text(f"OFF 4 1 0\n{square} 4 0 1 2 3\n")
+    (folder / "binary.off").write_bytes(b"OFF BINARY\n" + b"".join(big))
+    for name in ("stream.off", "binary.off"):
+        hm.load(folder / name)
+
+
+@hm.kernel
+def _walk(t: Any, x: int) -> int:
+    """Every circulator once: they wait for the user's kernels."""
+    n = 0
+    for h in hm.outgoing(t, x):
+        n += h
+    for h in hm.incoming(t, x):
+        n += h
+    for v in hm.neighbors(t, x):
+        n += v
+    for e in hm.edges_around(t, x):
+        n += e
+    for f in hm.faces_around(t, x):
+        n += f
+    for h in hm.face_halfedges(t, x):
+        n += h
+    for v in hm.face_vertices(t, x):
+        n += v
+    for e in hm.face_edges(t, x):
+        n += e
+    for f in hm.face_neighbors(t, x):
+        n += f
+    for h in hm.loop(t, x):
+        n += h
+    return n
+
+
+def _smooth() -> None:
+    from halfmesh.demo import smooth
+
+    mesh = hm.shapes.icosphere(0)
+    smooth(mesh, mesh.points, mesh.points.copy())
+
+
+# ----------------------------------------------------------------------------------------------- what has been compiled
+
+
+def n_compiled_here() -> int:
+    """How many kernels this process has compiled itself; those that it read from the cache are not counted."""
+    return sum(bool(k.compiled.stats.cache_misses) for k in _touched())
+
+
+def n_from_cache() -> int:
+    """How many kernels this process has read from the cache and not compiled."""
+    return sum(bool(k.compiled.stats.cache_hits and not k.compiled.stats.cache_misses) for k in _touched())
+
+
+def _touched() -> list[_jit.Kernel[Any, Any]]:
+    return [k for k in _jit.all_kernels if "compiled" in vars(k)]
+
+
+def kernels_of(package: types.ModuleType) -> list[_jit.Kernel[Any, Any]]:
+    """All kernels of a package, which is imported whole for it."""
+    for module in pkgutil.walk_packages(package.__path__, f"{package.__name__}."):
+        importlib.import_module(module.name)
+    inside = (package.__name__, f"{package.__name__}.")
+    known = [k for k in _jit.all_kernels if k.__module__ == inside[0] or k.__module__.startswith(inside[1])]
+    return [k for k in known if getattr(sys.modules.get(k.__module__), k.py_func.__name__, None) is k]
+
+
+def never_compiled(package: types.ModuleType) -> list[_jit.Kernel[Any, Any]]:
+    """Kernels that this process has neither compiled nor read from the cache, nor any kernel that calls them.
+
+    Navigation rules are left out: they cost nothing to compile, and the circulators need most of them.
+    """
+    ours = kernels_of(package)
+    reached: set[int] = set()
+    for k in ours:
+        if "compiled" in vars(k) and k.compiled.signatures:
+            _reach(k, reached)
+    return [k for k in ours if id(k) not in reached and not isinstance(k, _jit.Rule)]
+
+
+def _reach(value: Any, reached: set[int]) -> None:
+    """Mark a kernel or circulator, and everything that it calls."""
+    if id(value) in reached:
+        return
+    if isinstance(value, _jit.Circulator):
+        reached.add(id(value))
+        for part in (value.start, value.step, value.value):
+            _reach(part, reached)
+    elif isinstance(value, _jit.Kernel):
+        reached.add(id(value))
+        scope = value.py_func.__globals__
+        names = list(_names(value.py_func.__code__))
+        modules = [scope[name] for name in names if isinstance(scope.get(name), types.ModuleType)]
+        for name in names:
+            _reach(scope.get(name), reached)
+            for module in modules:  # `hm.neighbors` in a kernel
+                _reach(getattr(module, name, None), reached)
+
+
+def _names(code: types.CodeType) -> Iterator[str]:
+    yield from code.co_names
+    for constant in code.co_consts:
+        if isinstance(constant, types.CodeType):
+            yield from _names(constant)
