@@ -7,7 +7,6 @@ with any other keyword (curves, surfaces, what a writer forgot to mark as a comm
 
 from __future__ import annotations
 
-import re
 from typing import NamedTuple, NoReturn
 
 import numpy as np
@@ -23,8 +22,7 @@ from halfmesh.io.source import Source, interpreted_size
 __all__ = ["read_obj"]
 
 _MOST_OPEN = 2048
-_BACKSLASH = 92
-_JOINT = re.compile(rb"\\(?:\r\n|\n|\r|\Z)")
+_FEED, _RETURN, _SPACE, _HASH, _BACKSLASH = 10, 13, 32, 35, 92
 _ROWS = ((k.VERTEX, k.V), (k.TEXTURE, k.VT), (k.NORMAL, k.VN), (k.FACE, k.F), (k.EVENT, k.OTHER))
 
 
@@ -188,13 +186,17 @@ def _joined(source: Source) -> NDArray[np.uint8]:
 
     A comment ends with its line, backslash or not: paths like ``C:\models\`` stand there.
     """
-    data = source.data
-    if not (data == _BACKSLASH).any():
+    data, end = source.data, source.end
+    at = np.flatnonzero(data == _BACKSLASH)
+    if not len(at):
         return data
-    joined = data.copy()
-    text = bytes(data)
-    for joint in _JOINT.finditer(text):
-        begin = max(text.rfind(b"\n", 0, joint.start()), text.rfind(b"\r", 0, joint.start())) + 1
-        if b"#" not in text[begin : joint.start()]:
-            joined[joint.start() : joint.end()] = 32
-    return joined
+    padded = np.concatenate([data, np.full(2, _FEED, dtype=np.uint8)])  # at the end of the file it joins nothing
+    at = at[(padded[at + 1] == _FEED) | (padded[at + 1] == _RETURN)]
+    ends = np.flatnonzero((data == _FEED) | (data == _RETURN))
+    comments = np.flatnonzero(data == _HASH)
+    line = np.concatenate([[0], ends + 1])[np.searchsorted(ends, at)]
+    at = at[np.searchsorted(comments, line) == np.searchsorted(comments, at)]
+    both = at[(padded[at + 1] == _RETURN) & (padded[at + 2] == _FEED)]
+    for place in (at, at + 1, both + 2):
+        padded[place] = _SPACE
+    return padded[:end]

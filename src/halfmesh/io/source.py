@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from halfmesh._jit import kernel, n_threads
 from halfmesh.errors import FormatError
-from halfmesh.io.numbers import is_end, number_from_text
+from halfmesh.io.numbers import number_from_text
 
 __all__ = ["Source", "interpreted_size", "n_parts"]
 
@@ -20,6 +20,7 @@ Bytes = NDArray[np.uint8]
 
 _PART = 500_000  # bytes; below that a second thread costs more than it saves
 _MOST_SHOWN = 40
+_TOKEN = re.compile(rb"[^\s#]*+")
 _NO_NUMBER = re.compile(rb"#[IQS][A-Z]")
 
 
@@ -89,13 +90,9 @@ class Source:
 
     def token(self, at: int) -> bytes:
         """The token that begins at `at`."""
-        size = 64
-        while True:
-            window = self.view[at : at + size]
-            n = next((i for i, c in enumerate(window) if is_end.plain(c)), -1)
-            if n >= 0 or at + size >= self.end:
-                return bytes(window[:n] if n >= 0 else window)
-            size *= 8
+        token = _TOKEN.match(self.view, at)
+        assert token is not None  # it may be empty
+        return token.group()
 
     def number(self, at: int) -> float:
         """What ``float()`` makes of the token that begins at `at`.
