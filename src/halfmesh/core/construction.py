@@ -136,9 +136,7 @@ def _written(faces: FaceList, halfedges: Ints, corners: Ints, n_edges: int) -> A
     columns = (arrays.next, arrays.prev, arrays.origin, arrays.face)
     parallel(_write_halfedges.at(n), [(*sources, *columns, *p) for p in parts(n_edges, n)])
     arrays.vertex_halfedge[:] = NONE
-    _write_first_halfedges.at(n)(
-        faces.corners, faces.degree, faces.offsets, halfedges, arrays.vertex_halfedge, arrays.face_halfedge, faces.n_faces
-    )
+    _write_first_halfedges.at(n)(*sources[:3], halfedges, arrays.vertex_halfedge, arrays.face_halfedge, faces.n_faces)
     return arrays
 
 

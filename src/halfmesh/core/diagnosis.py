@@ -52,7 +52,7 @@ def listed(items: Any, what: str = "") -> str:
 
 
 def _distinct(indices: Ints, n: int) -> Ints:
-    """The distinct ones of many indices below n, ascending: twice as fast as sorting, eight times as fast as hashing."""
+    """The distinct ones of many indices below n, ascending; np.unique hashes, eight times as slow on equal ones."""
     flags = np.zeros(n, dtype=bool)
     flags[indices] = True
     return np.flatnonzero(flags)
@@ -100,7 +100,11 @@ def _repeated(faces: FaceList, corners: Ints, begins: Ints, face_of: Ints) -> In
         f"{_plural(len(bad), 'corner repeats', 'corners repeat')} a vertex in succession: {listed(where)}; "
         "remove the repetition, and the face if fewer than 3 corners are left",
         reason="repeated_vertex",
-        elements={"corners": bad, "faces": _distinct(face_of[bad], faces.n_faces), "vertices": _distinct(corners[bad], faces.n_vertices)},
+        elements={
+            "corners": bad,
+            "faces": _distinct(face_of[bad], faces.n_faces),
+            "vertices": _distinct(corners[bad], faces.n_vertices),
+        },
     )
 
 
@@ -132,7 +136,8 @@ def _too_many_faces(keys: Ints, n: int, order: Ints, starts: Ints, uses: Ints, f
     shown = [f"{a}-{b} ({listed(f, 'faces ')})" for (a, b), f in zip(edges[:SHOWN], of_edge, strict=True)]
     all_uses = np.repeat(starts, uses) + _ramp(uses)
     return InvalidMeshError(
-        f"{_plural(len(edges), 'edge has', 'edges have')} more than two faces: {listed(shown + [''] * (len(edges) - SHOWN))}; "
+        f"{_plural(len(edges), 'edge has', 'edges have')} more than two faces: "
+        f"{listed(shown + [''] * (len(edges) - SHOWN))}; "
         "a half-edge mesh holds two faces an edge: remove faces, or give the sheets vertices of their own",
         reason="nonmanifold_edge",
         elements={"edges": edges, "faces": _distinct(face_of[order[all_uses]], int(face_of[-1]) + 1)},
@@ -150,7 +155,9 @@ def _disoriented(n_faces: int, pairs: Ints, first: Ints, second: Ints, same: Int
     turned = np.zeros(n_faces, dtype=np.uint8)
     jobs = (first.astype(np.int32), second.astype(np.int32), same.astype(np.uint8))
     conflicts = _orient.at(n_faces)(*jobs, parent, turned)
-    shown = [f"{a}->{b} (faces {f}, {g})" for (a, b), f, g in zip(pairs[:SHOWN], first[same], second[same], strict=False)]
+    shown = [
+        f"{a}->{b} (faces {f}, {g})" for (a, b), f, g in zip(pairs[:SHOWN], first[same], second[same], strict=False)
+    ]
     text = f"{_plural(len(pairs), 'edge is', 'edges are')} passed twice in the same direction: "
     text += listed(shown + [""] * (len(pairs) - SHOWN))
     elements = {"edges": pairs, "faces": _distinct(np.r_[first[same], second[same]], n_faces)}

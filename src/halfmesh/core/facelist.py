@@ -45,6 +45,7 @@ class FaceList:
 
     @property
     def n_corners(self) -> int:
+        """Sum of the face degrees."""
         return len(self.corners)
 
     def begins(self) -> Ints:
@@ -132,7 +133,7 @@ def _flat_lists(faces: Iterable[Any]) -> tuple[NDArray[np.integer], int, Ints]:
         rows = [row if isinstance(row, list | tuple | np.ndarray) else list(row) for row in faces]
     except TypeError:
         raise InvalidMeshError(
-            f"faces is {type(faces).__name__}; expected an (n, k) integer array, a list of lists, or (indices, offsets)",
+            f"faces is {type(faces).__name__}; expected an (n, k) int array, a list of lists, or (indices, offsets)",
             reason="bad_shape",
         ) from None
     if not rows:

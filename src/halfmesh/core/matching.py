@@ -20,6 +20,7 @@ a fifth off the whole construction in coherent order; in shuffled order it made 
 
 from __future__ import annotations
 
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -47,7 +48,7 @@ def parts(n: int, work: int) -> list[tuple[int, int]]:
     """The range 0..n in equal parts, one a thread, for so much work."""
     count = max(1, min(n_threads(), _MOST_PARTS, work // _PART))
     bounds = [n * i // count for i in range(count + 1)]
-    return list(zip(bounds[:-1], bounds[1:], strict=True))
+    return list(pairwise(bounds))
 
 
 def mates_by_vertex(faces: FaceList) -> Ints:
@@ -69,8 +70,8 @@ def mates_by_vertex(faces: FaceList) -> Ints:
         raise Defective
     starts = _first_places(cursors)
     streams = np.empty(4 * n, dtype=np.int32)
-    jobs = [(*source, shift, row, streams, *piece) for row, piece in zip(cursors, pieces, strict=True)]
-    parallel(_distribute.at(n), jobs)
+    pours = [(*source, shift, row, streams, *piece) for row, piece in zip(cursors, pieces, strict=True)]
+    parallel(_distribute.at(n), pours)
     mates = np.empty(n, dtype=np.int32)
     if sum(parallel(_match_blocks.at(n), _block_jobs(streams, starts, shift, n_vertices, mates))):
         raise Defective
@@ -82,7 +83,8 @@ def _first_places(cursors: Ints) -> Ints:
     by_block = np.ascontiguousarray(cursors.T)
     ends = np.cumsum(by_block.reshape(-1), dtype=np.int64).reshape(by_block.shape)
     cursors[:] = (ends - by_block).T
-    return np.r_[0, ends[:, -1]].astype(np.int32)
+    starts: Ints = np.r_[0, ends[:, -1]].astype(np.int32)
+    return starts
 
 
 def _block_jobs(streams: Ints, starts: Ints, shift: int, n_vertices: int, mates: Ints) -> list[tuple[Any, ...]]:
@@ -91,7 +93,7 @@ def _block_jobs(streams: Ints, starts: Ints, shift: int, n_vertices: int, mates:
     cuts = np.searchsorted(starts[1:-1], [len(mates) * i // n_parts for i in range(1, n_parts)])
     bounds = np.unique(np.r_[0, cuts, len(starts) - 1]).tolist()
     jobs: list[tuple[Any, ...]] = []
-    for low, high in zip(bounds[:-1], bounds[1:], strict=True):
+    for low, high in pairwise(bounds):
         largest = int(np.diff(starts[low : high + 1]).max())
         first = np.empty((1 << shift) + 2, dtype=np.int32)
         around = np.empty(max(3 * largest, 1), dtype=np.int32)
@@ -122,6 +124,7 @@ def _count(
 
 @kernel
 def corner_range(degree: int, offsets: Any, f: int) -> tuple[int, int]:
+    """The first corner of face `f`, and the first that is not its own."""
     if degree > 0:
         return degree * f, degree * f + degree
     return offsets[f], offsets[f + 1]
@@ -143,7 +146,7 @@ def before(c: int, begin: int, end: int) -> int:
 def _distribute(
     corners: Any, degree: int, offsets: Any, shift: int, cursor: Any, streams: Any, low: int, high: int
 ) -> None:
-    """Each corner goes, as (vertex, vertex before, vertex after, corner), to the stream of its block, in corner order."""
+    """Each corner goes, as (vertex, vertex before, vertex after, corner), to the stream of its block, in order."""
     for f in range(low, high):
         begin, end = corner_range(degree, offsets, f)
         last = corners[end - 1]
@@ -215,7 +218,7 @@ def _match(first: Any, around: Any, table: Any, mates: Any, n: int) -> int:
         for i in range(begin, end):
             u = around[3 * i + 1]
             j = table[u]
-            if begin <= j and j < i and around[3 * j + 1] == u:
+            if begin <= j < i and around[3 * j + 1] == u:
                 doubled += 1
             table[u] = i
         if doubled > 0:
@@ -225,7 +228,7 @@ def _match(first: Any, around: Any, table: Any, mates: Any, n: int) -> int:
         for _ in range(begin, end):
             u = around[3 * i]
             j = table[u]
-            if not (begin <= j and j < end and around[3 * j + 1] == u):
+            if not (begin <= j < end and around[3 * j + 1] == u):
                 size = _match_open_fans(around, table, mates, begin, end)
                 break
             mates[around[3 * i + 2]] = around[3 * j + 2]
@@ -260,6 +263,7 @@ def _match_open_fans(around: Any, table: Any, mates: Any, begin: int, end: int) 
 
 
 def mates_from_twins(faces: FaceList, twins: Ints) -> Ints:
+    """The same from explicit twins, which are checked: each other's twin, between the same vertices."""
     mates = np.empty(faces.n_corners, dtype=np.int32)
     wrong = _adopt_twins.at(faces.n_corners)(
         faces.corners, faces.degree, faces.offsets, twins, mates, faces.n_faces, faces.n_vertices
@@ -270,9 +274,7 @@ def mates_from_twins(faces: FaceList, twins: Ints) -> Ints:
 
 
 @kernel
-def _adopt_twins(
-    corners: Any, degree: int, offsets: Any, twins: Any, mates: Any, n_faces: int, n_vertices: int
-) -> int:
+def _adopt_twins(corners: Any, degree: int, offsets: Any, twins: Any, mates: Any, n_faces: int, n_vertices: int) -> int:
     wrong = 0
     for f in range(n_faces):
         begin, end = corner_range(degree, offsets, f)

@@ -1,17 +1,17 @@
-"""The rules: how to get from one element to another. Each is one line, and stands nowhere else.
+r"""The rules: how to get from one element to another. Each is one line, and stands nowhere else.
 
 ::
 
                      target
                        o
-              next    /|\\        twin(h) = h ^ 1      the same edge, the other way
-                <--  / | \\       edge(h) = h >> 1
-                    /  |  \\
-        face(h)    /   |h  \\     ccw(h) = twin(prev)   the next halfedge around the origin, counter-clockwise
-                   \\   |   /      cw(h) = next(twin)    ... clockwise
-                    \\  |  /
-                -->  \\ | /
-              prev    \\|/
+              next    /|\        twin(h) = h ^ 1      the same edge, the other way
+                <--  / | \       edge(h) = h >> 1
+                    /  |  \
+        face(h)    /   |h  \     ccw(h) = twin(prev)   the next halfedge around the origin, counter-clockwise
+                   \   |   /      cw(h) = next(twin)    ... clockwise
+                    \  |  /
+                -->  \ | /
+              prev    \|/
                        o
                      origin
 

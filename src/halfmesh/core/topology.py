@@ -95,26 +95,32 @@ class Topology:
 
     @property
     def next(self) -> Ints:
+        """The halfedge after each, around its face or boundary loop."""
         return self._read_only("next", 2 * self._slots(EDGE_SLOTS))
 
     @property
     def prev(self) -> Ints:
+        """The halfedge before each."""
         return self._read_only("prev", 2 * self._slots(EDGE_SLOTS))
 
     @property
     def origin(self) -> Ints:
+        """The vertex that each halfedge leaves."""
         return self._read_only("origin", 2 * self._slots(EDGE_SLOTS))
 
     @property
     def face(self) -> Ints:
+        """The face of each halfedge, -1 outside."""
         return self._read_only("face", 2 * self._slots(EDGE_SLOTS))
 
     @property
     def vertex_halfedge(self) -> Ints:
+        """A halfedge that leaves each vertex, an exterior one if there is any; -1 if isolated."""
         return self._read_only("vertex_halfedge", self._slots(VERTEX_SLOTS))
 
     @property
     def face_halfedge(self) -> Ints:
+        """A halfedge of each face."""
         return self._read_only("face_halfedge", self._slots(FACE_SLOTS))
 
     @property
@@ -153,7 +159,8 @@ class Topology:
         self.__init__(arrays)  # type: ignore[misc]
 
     def __repr__(self) -> str:
-        return f"<Topology: {self._slots(VERTEX_SLOTS)} vertices, {self._slots(EDGE_SLOTS)} edges, {self._slots(FACE_SLOTS)} faces>"
+        v, e, f = (self._slots(place) for place in (VERTEX_SLOTS, EDGE_SLOTS, FACE_SLOTS))
+        return f"<Topology: {v} vertices, {e} edges, {f} faces>"
 
     # -- a carrier -----------------------------------------------------------------------------------------------
 

@@ -55,7 +55,7 @@ def with_wire(t: Topology, edges: Ints) -> Topology:
     return made
 
 
-def _closed(arrays: Arrays, edges: Ints) -> NDArray[np.bool_]:
+def _closed(arrays: Arrays, edges: Ints) -> Any:
     start = arrays.vertex_halfedge[edges]
     return ((start >= 0) & (arrays.face[np.maximum(start, 0)] >= 0)).any(axis=1)
 
@@ -108,11 +108,11 @@ def _attach_all(t: Any, first: int) -> None:
 
 @kernel
 def _attach_end(t: Any, h: int) -> None:
-    """Hang the origin of the new halfedge `h` into the gap of its vertex.
+    r"""Hang the origin of the new halfedge `h` into the gap of its vertex.
 
     ::
 
-        before \\      / gap           before \\   h    / gap
+        before \      / gap           before \   h    / gap
                 v    v          -->            v ^  | v
                   (v)                           (v)
     """

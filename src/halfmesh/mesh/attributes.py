@@ -31,6 +31,7 @@ class Column:
         self._proxy: Any = None
 
     def copy(self, n: int) -> Column:
+        """A column with the first n values."""
         return Column(self.values[:n].copy(), self.default)
 
     def __views__(self) -> Column:
@@ -77,7 +78,9 @@ class AttributeTable(MutableMapping[str, NDArray[Any]]):
         self._required = required
         self._columns: dict[str, Column] = {}
 
-    def add(self, name: str, dtype: DTypeLike = float, shape: tuple[int, ...] = (), *, default: Any = 0) -> NDArray[Any]:
+    def add(
+        self, name: str, dtype: DTypeLike = float, shape: tuple[int, ...] = (), *, default: Any = 0
+    ) -> NDArray[Any]:
         """Create an attribute.
 
         Parameters
@@ -125,10 +128,14 @@ class AttributeTable(MutableMapping[str, NDArray[Any]]):
         array = array.astype(_checked_dtype(array.dtype), copy=False)
         if array.ndim == 0 or len(array) != self._size():
             raise ValueError(
-                f"{self._kind} data {name!r} needs {self._size()} rows, one for each {self._kind}; got shape {array.shape}"
+                f"{self._kind} data {name!r} needs {self._size()} rows, one per {self._kind}; got shape {array.shape}"
             )
         old = self._columns.get(name)
-        if old and name in self._required and (array.shape[1:], array.dtype) != (old.values.shape[1:], old.values.dtype):
+        if (
+            old
+            and name in self._required
+            and (array.shape[1:], array.dtype) != (old.values.shape[1:], old.values.dtype)
+        ):
             raise ValueError(f"{name!r} stays {old.values.dtype} of shape (n, {old.values.shape[1]})")
         self._set(name, Column(array, old.default if old else 0))
 

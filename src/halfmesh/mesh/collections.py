@@ -73,7 +73,11 @@ class Collection(Generic[E]):
             raise ElementError(f"expected a {name} or its index, got {element!r}")
         slots = len(getattr(self._mesh.topology, self._kind.column)) // _PER_SLOT[name]
         if not 0 <= element < slots:
-            raise ElementError(f"no {name} {element}: indices run from 0 to {slots - 1}" if slots else f"there are no {self._kind.plural}")
+            raise ElementError(
+                f"no {name} {element}: indices run from 0 to {slots - 1}"
+                if slots
+                else f"there are no {self._kind.plural}"
+            )
         self._made(int(element))._check()
         return int(element)
 

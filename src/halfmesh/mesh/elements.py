@@ -134,21 +134,22 @@ def made(kind: type[E], t: Any, index: int) -> E:
     return handle
 
 
-class step(Generic[R]):  # noqa: N801 - used as a decorator
-    """A property that follows one rule; `bind` writes the fast getter once the handle classes exist."""
+def step(rule: Any, kind: str, *, reads: bool = True) -> Callable[[Callable[[Any], R]], _Step[R]]:
+    """Declare a property that follows one rule to an element of that kind; `reads` a column, or is arithmetic."""
+    return lambda function: _Step(rule.plain, kind, reads, function.__doc__)
 
-    def __init__(self, rule: Any, kind: str, *, reads: bool = True) -> None:
-        self.rule, self.kind, self.reads = rule.plain, kind, reads
 
-    def __call__(self, function: Callable[[Any], R]) -> step[R]:
-        self.__doc__ = function.__doc__
-        return self
+class _Step(Generic[R]):
+    """What `step` declares; `bind` writes the fast getter once the handle classes exist."""
+
+    def __init__(self, rule: Any, kind: str, reads: bool, doc: str | None) -> None:
+        self.rule, self.kind, self.reads, self.__doc__ = rule, kind, reads, doc
 
     @overload
-    def __get__(self, instance: None, owner: type) -> step[R]: ...
+    def __get__(self, instance: None, owner: type) -> _Step[R]: ...
     @overload
     def __get__(self, instance: Element, owner: type) -> R: ...
-    def __get__(self, instance: Element | None, owner: type) -> step[R] | R:
+    def __get__(self, instance: Element | None, owner: type) -> _Step[R] | R:
         raise AssertionError("replaced by a property when the module is loaded")
 
     def bind(self, kinds: dict[str, type[Element]], per_slot: int) -> property:
@@ -382,5 +383,5 @@ _KINDS: dict[str, type[Element]] = {"vertex": Vertex, "halfedge": Halfedge, "edg
 
 for _kind in _KINDS.values():
     for _name, _word in list(vars(_kind).items()):
-        if isinstance(_word, step):
+        if isinstance(_word, _Step):
             setattr(_kind, _name, _word.bind(_KINDS, 2 if _kind is Edge else 1))

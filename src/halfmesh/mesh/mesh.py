@@ -163,12 +163,12 @@ class Mesh:
     @property
     def revision(self) -> int:
         """Increases with every change of the connectivity; writing into `points` is not one."""
-        return self._t.counts[REVISION]  # type: ignore[attr-defined,no-any-return]
+        return self._t.counts[REVISION]  # type: ignore[no-any-return]
 
     # -- counts --------------------------------------------------------------------------------------------------
 
     def _count(self, slots: int, dead: int) -> int:
-        counts = self._t.counts  # type: ignore[attr-defined]
+        counts = self._t.counts
         return counts[slots] - counts[dead]  # type: ignore[no-any-return]
 
     @property
@@ -194,7 +194,7 @@ class Mesh:
     @property
     def n_exterior_halfedges(self) -> int:
         """Number of halfedges without a face. O(1)."""
-        return self._t.counts[N_EXTERIOR]  # type: ignore[attr-defined,no-any-return]
+        return self._t.counts[N_EXTERIOR]  # type: ignore[no-any-return]
 
     @property
     def n_interior_halfedges(self) -> int:
@@ -273,7 +273,7 @@ class Mesh:
         if revision != self.revision:
             value = compute(self._topology)
             self._cache[name] = (self.revision, value)
-        return value  # type: ignore[return-value]
+        return value  # type: ignore[no-any-return]
 
     # -- finding and walking ---------------------------------------------------------------------------------------
 

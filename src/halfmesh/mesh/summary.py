@@ -54,7 +54,10 @@ class Summary:
         kinds += ", ..." if len(self.face_degrees) > 6 else ""
         return [
             ("vertices", f"{self.vertices:,}"),
-            ("  interior, boundary, isolated", _split(self.interior_vertices, self.boundary_vertices, self.isolated_vertices)),
+            (
+                "  interior, boundary, isolated",
+                _split(self.interior_vertices, self.boundary_vertices, self.isolated_vertices),
+            ),
             ("  degree", f"{self.vertex_degree_min} to {self.vertex_degree_max}, mean {self.vertex_degree_mean:.2f}"),
             ("edges", f"{self.edges:,}"),
             ("halfedges", f"{self.halfedges:,}"),

@@ -98,11 +98,19 @@ def _parsed(function: types.FunctionType) -> ast.Module | None:
     if not isinstance(definition, ast.FunctionDef):
         return None
     definition.decorator_list = []
-    code = _compiled(tree, function)
-    return tree if code is not None and code.co_code == function.__code__.co_code else None
+    codes = (_compiled(tree, function, imports) for imports in ((), _modules(function)))
+    return tree if any(code is not None and code.co_code == function.__code__.co_code for code in codes) else None
 
 
-def _compiled(tree: ast.Module, function: types.FunctionType) -> types.CodeType | None:
+def _modules(function: types.FunctionType) -> tuple[str, ...]:
+    """The names that mean modules. Python compiles ``hm.f()`` another way where `hm` is imported in the same text."""
+    scope = inspect.getclosurevars(function)
+    return tuple(n for n, value in {**scope.globals, **scope.nonlocals}.items() if isinstance(value, types.ModuleType))
+
+
+def _compiled(
+    tree: ast.Module, function: types.FunctionType, imports: tuple[str, ...] = ()
+) -> types.CodeType | None:
     """The code object of the definition in `tree`, with the function's closure variables as free variables."""
     wrapper = ast.parse("def _closure():\n    pass")
     outer = wrapper.body[0]
@@ -110,6 +118,7 @@ def _compiled(tree: ast.Module, function: types.FunctionType) -> types.CodeType 
     free = function.__code__.co_freevars
     outer.args.args = [ast.arg(arg=name) for name in free]
     outer.body = [tree.body[0]]
+    wrapper.body += [ast.Import(names=[ast.alias(name=name)]) for name in imports]
     ast.fix_missing_locations(wrapper)
     module = compile(wrapper, function.__code__.co_filename, "exec", dont_inherit=True, flags=_future_flags(function))
     return _inner(_inner(module, "_closure"), function.__name__)
@@ -141,6 +150,7 @@ class _Unroller(ast.NodeTransformer):
     def __init__(self, function: types.FunctionType, is_circulator: Any) -> None:
         self.scope = dict(inspect.getclosurevars(function).nonlocals)
         self.globals = function.__globals__
+        self.locals = {*function.__code__.co_varnames}
         self.is_circulator = is_circulator
         self.rules: dict[str, Any] = {}
         self.found = 0
@@ -169,6 +179,8 @@ class _Unroller(ast.NodeTransformer):
 
     def _resolved(self, node: ast.expr) -> Any:
         if isinstance(node, ast.Name):
+            if node.id in self.locals:
+                return None
             return self.scope.get(node.id, self.globals.get(node.id))
         if isinstance(node, ast.Attribute):
             return getattr(self._resolved(node.value), node.attr, None)

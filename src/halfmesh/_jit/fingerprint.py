@@ -75,8 +75,14 @@ def _module_parts(module: types.ModuleType, names: list[str], seen: set[int]) ->
         return  # their version is part of the salt
     for name in names:
         if hasattr(module, name):
+            value = getattr(module, name)
             yield name.encode()
-            yield from _value_parts(getattr(module, name), seen)
+            if isinstance(value, types.ModuleType):
+                if id(value) not in seen:  # packages know their modules, and these their packages
+                    seen.add(id(value))
+                    yield from _module_parts(value, names, seen)
+            else:
+                yield from _value_parts(value, seen)
 
 
 def _value_parts(value: Any, seen: set[int]) -> Iterator[bytes]:
@@ -92,9 +98,10 @@ def _value_parts(value: Any, seen: set[int]) -> Iterator[bytes]:
         yield f"{value.dtype}{value.shape}".encode()
         yield np.ascontiguousarray(value).tobytes()
     elif isinstance(value, tuple):
+        yield f"{type(value).__qualname__}{len(value)}".encode()
         for item in value:
             yield from _value_parts(item, seen)
     elif isinstance(value, type | types.BuiltinFunctionType | types.ModuleType):
         yield f"{getattr(value, '__module__', '')}.{getattr(value, '__qualname__', value)}".encode()
     else:
-        yield repr(value).encode()  # a repr with an address in it only costs the cache, never correctness
+        yield f"{type(value).__qualname__} {value!r}".encode()  # a repr with an address in it only costs the cache, never correctness

@@ -1,0 +1,46 @@
+"""One function, several gears, all from the same source. The only room that talks to Numba, and only when it must.
+
+========================  ==========================================================  =============================
+``f(...)``                compiled, releases the GIL, cached on disk                  hot loops, the user's too
+``f.at(n)(...)``          compiled, or interpreted while `n` is small and nothing     library calls: a small mesh
+                          has been compiled yet                                       never waits for a compiler
+``f.interpreted(...)``    plain Python over the same arrays                           debugging, tests
+``f.plain``               the bare function with the kernels it calls bare too        handles, vectorised rules
+========================  ==========================================================  =============================
+
+A *carrier* is an object whose arrays a kernel may read, write and replace by larger ones. In compiled code it is a
+Numba structref; in interpreted code it is an ordinary object with the same attribute names.
+
+::
+
+    kernels       Kernel, Rule, Circulator: what is decorated
+       |
+    compiler      the one file that imports Numba: dispatchers, the disk cache, carriers
+       |
+    loops . fingerprint . arguments . threads . gears
+"""
+
+from halfmesh._jit.arguments import Carrier, Views, view
+from halfmesh._jit.compiler import CarrierType, cache_folder, declare_carrier
+from halfmesh._jit.gears import compiling_always
+from halfmesh._jit.kernels import Circulator, Kernel, Rule, all_kernels, circulator, kernel, rule
+from halfmesh._jit.threads import n_threads, parallel
+
+__all__ = [
+    "Carrier",
+    "CarrierType",
+    "Circulator",
+    "Kernel",
+    "Rule",
+    "Views",
+    "all_kernels",
+    "cache_folder",
+    "circulator",
+    "compiling_always",
+    "declare_carrier",
+    "kernel",
+    "n_threads",
+    "parallel",
+    "rule",
+    "view",
+]

@@ -1,0 +1,237 @@
+"""The one file that imports Numba: dispatchers, their disk cache, and the compiled form of carriers."""
+
+from __future__ import annotations
+
+import contextlib
+import functools
+import hashlib
+import os
+import pathlib
+import sys
+import threading
+import types
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from halfmesh._jit.fingerprint import fingerprint
+from halfmesh._jit.loops import with_column_reads
+
+if TYPE_CHECKING:
+    from numba.core.caching import FunctionCache
+
+__all__ = ["CarrierType", "Compilable", "cache_folder", "declare_carrier", "dispatcher", "numba"]
+
+_undefined: list[CarrierType] = []  # carriers whose Numba type was not made yet
+_defining = threading.RLock()
+
+
+class Compilable:
+    """What compiled code may call by name: its ``compiled`` is a Numba dispatcher."""
+
+    compiled: Any
+
+
+@functools.cache
+def numba() -> Any:
+    """Numba, imported once, taught to see a :class:`Compilable` as the dispatcher that it wraps."""
+    import numba
+    from numba.core import types as nbtypes
+    from numba.extending import typeof_impl
+
+    @typeof_impl.register(Compilable)
+    def _typeof(value: Any, context: Any) -> Any:
+        return nbtypes.Dispatcher(value.compiled)
+
+    return numba
+
+
+@functools.cache
+def _unchecked() -> Any:
+    """``column[i]`` for an index that is known not to be negative."""
+    from numba.core import types as nbtypes
+    from numba.extending import intrinsic
+
+    @intrinsic
+    def read(typing_context: Any, column: Any, index: Any) -> Any:
+        def generate(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+            array = context.make_array(signature.args[0])(context, builder, arguments[0])
+            return builder.load(builder.gep(array.data, [arguments[1]]))
+
+        return column.dtype(column, nbtypes.intp), generate
+
+    return read
+
+
+def _define_carriers() -> None:
+    with _defining:  # the first kernels of a process may be called by two threads at once
+        while _undefined:
+            _undefined.pop().define()
+
+
+def dispatcher(
+    function: types.FunctionType,
+    *,
+    source: types.FunctionType | None = None,
+    keep: bool = True,
+    unchecked: bool = False,
+    salt: str = "",
+) -> Any:
+    """The Numba dispatcher of a function.
+
+    Parameters
+    ----------
+    function : function
+        What it does, and what the cache key is taken from.
+    source : function, optional
+        What is compiled in its stead, if that was written anew.
+    keep : bool
+        Keep the result on disk.
+    unchecked : bool
+        Read columns without Numba's test for negative indices (but with it where bounds are checked).
+    salt : str
+        What else the cache key depends on.
+    """
+    _define_carriers()
+    source = source or function
+    if unchecked and not numba().config.BOUNDSCHECK:
+        source = with_column_reads(source, _unchecked())
+    made = numba().njit(error_model="numpy", nogil=True)(source)
+    cache = _disk_cache(source, fingerprint(function, salt, _own_source(), *_versions())) if keep else None
+    if cache is not None:
+        made._cache = cache
+    return made
+
+
+@functools.cache
+def _own_source() -> str:
+    here = pathlib.Path(__file__).parent
+    return "".join((here / name).read_text("utf-8") for name in ("compiler.py", "kernels.py", "loops.py"))
+
+
+@functools.cache
+def _versions() -> tuple[str, ...]:
+    config = numba().config
+    return (sys.version, np.__version__, numba().__version__, str(config.BOUNDSCHECK), str(config.OPT))
+
+
+def cache_folder() -> pathlib.Path:
+    """Where compiled kernels are kept: ``$HALFMESH_CACHE_DIR``, or the place that the system gives to caches."""
+    import platformdirs
+
+    chosen = os.environ.get("HALFMESH_CACHE_DIR")
+    base = pathlib.Path(chosen) if chosen else platformdirs.user_cache_path("halfmesh", appauthor=False)
+    checked = "-boundscheck" if numba().config.BOUNDSCHECK else ""
+    return base / f"{sys.implementation.cache_tag}-numba{numba().__version__}{checked}"
+
+
+@functools.cache
+def _writable_folder() -> str | None:
+    folder = cache_folder()
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError:
+        return None
+    return str(folder) if os.access(folder, os.W_OK) else None
+
+
+def _disk_cache(function: types.FunctionType, stamp: str) -> FunctionCache | None:
+    """Numba's cache with our key; None where nothing can be written, which costs the recompilation and no more."""
+    from numba.core.caching import CompileResultCacheImpl, FunctionCache, _CacheLocator
+
+    folder = _writable_folder()
+    if folder is None:
+        return None
+    # A file for each stamp: two scripts may have a function of the same name, and Numba writes the index before the
+    # code, so that one process could read what another wrote for other source.
+    place = hashlib.blake2b(f"{function.__code__.co_filename} {stamp}".encode(), digest_size=8).hexdigest()
+
+    class Locator(_CacheLocator):  # type: ignore[misc, unused-ignore]
+        def get_cache_path(self) -> str:
+            return str(folder)
+
+        def get_source_stamp(self) -> str:
+            return stamp
+
+        def get_disambiguator(self) -> str:
+            return place
+
+        @classmethod
+        def from_function(cls, py_func: Any, py_file: str) -> Any:
+            return cls()
+
+    class Implementation(CompileResultCacheImpl):  # type: ignore[misc, unused-ignore]
+        _locator_classes = [Locator]  # noqa: RUF012 - as Numba declares it
+
+    class Cache(FunctionCache):  # type: ignore[misc, unused-ignore]
+        _impl_class = Implementation
+
+        def _index_key(self, sig: Any, codegen: Any) -> Any:
+            return (sig, codegen.magic_tuple())  # the stamp knows the code, and what closures hold
+
+        def load_overload(self, sig: Any, target_context: Any) -> Any:
+            try:
+                return super().load_overload(sig, target_context)
+            except Exception:  # a file cut short or damaged: whatever pickle says, it is compiled anew
+                return None
+
+        def save_overload(self, sig: Any, data: Any) -> None:
+            with contextlib.suppress(Exception):  # a full disk, what can't be pickled: it is not kept, that is all
+                super().save_overload(sig, data)
+
+    return Cache(function)  # type: ignore[no-untyped-call, unused-ignore]
+
+
+# -- carriers ----------------------------------------------------------------------------------------------------------
+
+
+class CarrierType:
+    """The compiled form of a carrier: `make` builds one from its arrays, `take` gets them out again."""
+
+    def __init__(self, name: str, fields: tuple[str, ...]) -> None:
+        self.name, self.fields = name, fields
+        self._make: Any = None
+        self._take: Any = None
+
+    def make(self, *arrays: Any) -> Any:
+        """The compiled form of a carrier with these arrays; shares their memory."""
+        _define_carriers()
+        return self._make(*arrays)
+
+    def take(self, proxy: Any) -> tuple[Any, ...]:
+        """The arrays that the compiled form holds now."""
+        return self._take(proxy)  # type: ignore[no-any-return]
+
+    def define(self) -> None:
+        """Create the Numba type; all carriers are defined before anything is compiled or read from the cache."""
+        from numba.core import types as nbtypes
+        from numba.experimental import structref
+
+        class Type(nbtypes.StructRef):  # type: ignore[misc, unused-ignore]
+            def preprocess_fields(self, fields: Any) -> Any:
+                return tuple((n, nbtypes.unliteral(t)) for n, t in fields)
+
+        class Proxy(structref.StructRefProxy):  # type: ignore[misc, unused-ignore]
+            pass
+
+        for made, suffix in ((Type, "Type"), (Proxy, "Proxy")):
+            made.__name__ = made.__qualname__ = self.name + suffix
+            setattr(sys.modules[__name__], made.__name__, made)  # pickle looks here when the disk cache is read
+        structref.register(Type)
+        structref.define_constructor(Proxy, Type, list(self.fields))
+        structref.define_boxing(Type, Proxy)
+        scope: dict[str, Any] = {"Proxy": Proxy}
+        names = ", ".join(self.fields)
+        exec(f"def make_{self.name}({names}): return Proxy({names})", scope)
+        exec(f"def take_{self.name}(t): return ({''.join(f't.{f}, ' for f in self.fields)})", scope)
+        for verb in ("make", "take"):
+            function = scope[f"{verb}_{self.name}"]
+            function.__module__ = __name__
+            setattr(self, f"_{verb}", dispatcher(function, salt=repr(self.fields)))
+
+
+def declare_carrier(name: str, fields: tuple[str, ...]) -> CarrierType:
+    """Announce a carrier with these arrays; its Numba type is made when Numba is first needed."""
+    made = CarrierType(name, fields)
+    _undefined.append(made)
+    return made

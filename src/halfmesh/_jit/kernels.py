@@ -1,0 +1,282 @@
+"""What is decorated: kernels, rules and circulators, and how each is run in each gear."""
+
+from __future__ import annotations
+
+import functools
+import types
+from collections.abc import Callable, Iterator
+from typing import Any, Generic, ParamSpec, TypeVar
+
+import numpy as np
+
+from halfmesh._jit import gears
+from halfmesh._jit.arguments import Views, arrays, interpretable, lowered, refresh, view
+from halfmesh._jit.compiler import Compilable, dispatcher
+from halfmesh._jit.loops import unrolled
+
+__all__ = ["Circulator", "Kernel", "Rule", "all_kernels", "circulator", "kernel", "rule"]
+
+P = ParamSpec("P")
+R = TypeVar("R")
+
+all_kernels: list[Kernel[Any, Any]] = []
+
+
+class Kernel(Compilable, Generic[P, R]):
+    """A function of the subset of Python that Numba compiles; see the table at the top of this module."""
+
+    __name__: str
+    __qualname__: str
+
+    def __init__(self, function: Callable[P, R]) -> None:
+        functools.update_wrapper(self, function)
+        assert isinstance(function, types.FunctionType)
+        self.py_func: types.FunctionType = function
+        all_kernels.append(self)
+
+    def __call__(self, *args: P.args, **kwargs: P.kwargs) -> R:
+        if kwargs:
+            args = _positional(self.py_func, args, kwargs)  # type: ignore[assignment]
+        if gears.interpret_only or (args and isinstance(args[0], Views)):
+            return self.interpreted(*args)  # type: ignore[call-arg]
+        return self._compiled_call(*args)
+
+    def _compiled_call(self, *args: Any) -> R:
+        result: R = self.compiled(*[lowered(a) for a in args])
+        for a in args:
+            refresh(a)
+        return result
+
+    @functools.cached_property
+    def compiled(self) -> Any:
+        """The Numba dispatcher of this kernel (compiled at its first call, or read from the disk cache)."""
+        return dispatcher(self.py_func, source=unrolled(self.py_func, _is_circulator))
+
+    @functools.cached_property
+    def plain(self) -> Callable[P, R]:
+        """The bare Python function; the kernels that it calls by name are bare as well."""
+        return _plain(self.py_func)  # type: ignore[no-any-return]
+
+    def interpreted(self, *args: P.args, **kwargs: P.kwargs) -> R:
+        """Run in plain Python, on the same objects: set a breakpoint, print, step."""
+        plain: Any = self.plain
+        return plain(*[interpretable(a) for a in args], **kwargs)  # type: ignore[no-any-return]
+
+    def at(self, n: int) -> Callable[P, R]:
+        """The gear that suits an input of `n` elements; `n` decides only while this kernel has not been compiled."""
+        if gears.interpret_only or (n < gears.SMALL and not gears.always_compile and "compiled" not in self.__dict__):
+            return self._quick  # type: ignore[return-value]
+        return self._compiled_call  # type: ignore[return-value]
+
+    def _quick(self, *args: Any) -> R:
+        """Interpreted over memoryviews: elements are plain ints and floats, twice as fast as NumPy scalars."""
+        plain: Any = self.plain
+        return plain(*[view(a) if isinstance(a, np.ndarray) else interpretable(a) for a in args])  # type: ignore[no-any-return]
+
+    def __kernel_sources__(self) -> tuple[types.FunctionType, ...]:
+        return (self.py_func,)
+
+    def __repr__(self) -> str:
+        return f"<halfmesh kernel {self.__module__}.{self.__qualname__}>"
+
+    def __reduce__(self) -> str:
+        return self.__qualname__
+
+
+class Rule(Kernel[P, R]):
+    """A one-line kernel ``rule(t, h)``; called from Python it is interpreted for an int, vectorised for an array."""
+
+    @functools.cached_property
+    def compiled(self) -> Any:
+        """The dispatcher; its column reads skip Numba's test for negative indices, 8-13 % of a one-ring loop."""
+        return dispatcher(self.py_func, unchecked=True)
+
+    def __call__(self, *args: P.args, **kwargs: P.kwargs) -> R:
+        t, *rest = args
+        plain: Any = self.plain
+        if any(isinstance(x, np.ndarray) for x in rest):
+            return plain(arrays(t), *rest, **kwargs)  # type: ignore[no-any-return]
+        return plain(interpretable(t), *rest, **kwargs)  # type: ignore[no-any-return]
+
+
+def kernel(function: Callable[P, R]) -> Kernel[P, R]:
+    """Compile a loop over a mesh, from the library or your own.
+
+    Parameters
+    ----------
+    function : callable
+        Takes meshes, attribute columns, NumPy arrays and numbers. A :class:`~halfmesh.Mesh` arrives as its topology
+        `t`, to be walked by the rules (``next_of(t, h)``, ...) and circulators (``for h in outgoing(t, v)``); an
+        attribute column arrives with its array as ``.values``.
+
+    Returns
+    -------
+    Kernel
+        Call it like the function. It is compiled for the argument types at the first call and kept on disk;
+        ``kernel.interpreted(...)`` runs the very same text in plain Python, for a debugger.
+
+    Notes
+    -----
+    Kernels don't raise: return a code. They release the GIL.
+
+    Examples
+    --------
+    >>> import numpy as np, halfmesh as hm
+    >>> from halfmesh import outgoing
+    >>> @hm.kernel
+    ... def degrees(t, out):
+    ...     for v in range(len(out)):
+    ...         for h in outgoing(t, v):
+    ...             out[v] += 1
+    >>> mesh = hm.shapes.cube()
+    >>> out = np.zeros(mesh.n_vertices, dtype=np.int64)
+    >>> degrees(mesh, out)
+    >>> out
+    array([3, 3, 3, 3, 3, 3, 3, 3])
+    """
+    return Kernel(function)
+
+
+def rule(function: Callable[P, R]) -> Rule[P, R]:
+    """Declare a navigation rule: one line, written once, for every gear."""
+    return Rule(function)
+
+
+# -- circulators -------------------------------------------------------------------------------------------------------
+
+
+class Circulator(Compilable, Generic[P, R]):
+    """A loop over the elements around something: ``for h in outgoing(t, v)``, in any gear.
+
+    Parameters
+    ----------
+    function : callable
+        Carries the name, the parameters and the documentation; its body is never run.
+    start, step : Kernel
+        ``start(t, x)`` is the first halfedge, or -1 for none; ``step(t, h)`` the one after `h`. The loop ends when
+        the first comes round again.
+    value : Kernel or None
+        ``value(t, h)`` is what the loop yields; the halfedge itself by default.
+    skips : bool
+        Leave out values of -1 (a face that isn't there).
+    """
+
+    __name__: str
+    __qualname__: str
+
+    def __init__(self, function: Callable[P, R], start: Any, step: Any, value: Any, skips: bool) -> None:
+        functools.update_wrapper(self, function)
+        self.start, self.step, self.value, self.skips = start, step, value, skips
+
+    def __call__(self, *args: P.args, **kwargs: P.kwargs) -> R:
+        """Iterate in plain Python; the walk is not bounded, so hand it a valid mesh."""
+        t, x = args
+        return self._generator(True)(interpretable(t), x)  # type: ignore[no-any-return]
+
+    @functools.cached_property
+    def compiled(self) -> Any:
+        """A Numba generator: what compiled code falls back on where the loop could not be written out."""
+        return dispatcher(self._generator(False), keep=False)  # Numba can't link a generator from its cache
+
+    @functools.cached_property
+    def plain(self) -> Any:
+        """The bare generator function over bare rules."""
+        return self._generator(True)
+
+    def _generator(self, plain: bool) -> Any:
+        rules = {"START": self.start, "STEP": self.step, "VALUE": self.value}
+        if plain:
+            rules = {name: k and k.plain for name, k in rules.items()}
+        template = _circulate_values if self.value is not None else _circulate_halfedges
+        template = _circulate_present_values if self.skips else template
+        made = types.FunctionType(template.__code__, {**template.__globals__, **rules}, self.__name__)
+        made.__qualname__, made.__module__ = self.__qualname__, self.__module__
+        return made
+
+    def __kernel_sources__(self) -> tuple[types.FunctionType, ...]:
+        return tuple(k.py_func for k in (self.start, self.step, self.value) if k is not None)
+
+
+START: Any = None  # the templates below find these three in a scope made for each circulator
+STEP: Any = None
+VALUE: Any = None
+
+
+def _circulate_halfedges(t: Any, x: int) -> Iterator[int]:
+    end = START(t, x)
+    at = end
+    more = at >= 0
+    while more:
+        h = at
+        at = STEP(t, at)
+        more = at != end
+        yield h
+
+
+def _circulate_values(t: Any, x: int) -> Iterator[int]:
+    end = START(t, x)
+    at = end
+    more = at >= 0
+    while more:
+        value = VALUE(t, at)
+        at = STEP(t, at)
+        more = at != end
+        yield value
+
+
+def _circulate_present_values(t: Any, x: int) -> Iterator[int]:
+    end = START(t, x)
+    at = end
+    more = at >= 0
+    while more:
+        value = VALUE(t, at)
+        at = STEP(t, at)
+        more = at != end
+        if value >= 0:
+            yield value
+
+
+def circulator(
+    *, start: Any, step: Any, value: Any = None, skips: bool = False
+) -> Callable[[Callable[P, R]], Circulator[P, R]]:
+    """Declare a circulator by its three rules; the decorated function gives name, parameters and documentation."""
+    return lambda function: Circulator(function, start, step, value, skips)
+
+
+def _is_circulator(value: Any) -> bool:
+    return isinstance(value, Circulator)
+
+
+# -- plain functions ---------------------------------------------------------------------------------------------------
+
+_plain_of: dict[types.FunctionType, types.FunctionType] = {}
+
+
+def _plain(function: types.FunctionType) -> Any:
+    if function in _plain_of:
+        return _plain_of[function]
+    scope = dict(function.__globals__)
+    closure = tuple(types.CellType(_bare(cell.cell_contents)) for cell in function.__closure__ or ())
+    made = types.FunctionType(function.__code__, scope, function.__name__, function.__defaults__, closure or None)
+    made.__kwdefaults__, made.__qualname__, made.__module__ = (
+        function.__kwdefaults__,
+        function.__qualname__,
+        function.__module__,
+    )
+    _plain_of[function] = made  # before the kernels it calls: it may call itself
+    for name in function.__code__.co_names:
+        if name in scope:
+            scope[name] = _bare(scope[name])
+    return made
+
+
+def _bare(value: Any) -> Any:
+    return value.plain if isinstance(value, Kernel | Circulator) else value
+
+
+def _positional(function: types.FunctionType, args: tuple[Any, ...], kwargs: dict[str, Any]) -> tuple[Any, ...]:
+    import inspect
+
+    bound = inspect.signature(function).bind(*args, **kwargs)
+    bound.apply_defaults()
+    return tuple(bound.arguments.values())
