@@ -1,0 +1,397 @@
+"""One source, every gear: a rule or a loop says the same compiled, interpreted and vectorised (Q2-Q6)."""
+
+from __future__ import annotations
+
+import inspect
+
+import numpy as np
+import pytest
+
+import halfmesh as hm
+from halfmesh import (
+    edges_around,
+    face_edges,
+    face_halfedges,
+    face_neighbors,
+    face_vertices,
+    faces_around,
+    incoming,
+    loop,
+    neighbors,
+    outgoing,
+)
+from halfmesh._jit import Circulator, Rule, kernel
+from halfmesh.core import circulation, navigation
+from reference import Reference
+
+ZOO = hm.testing.zoo()
+RULES = {name: rule for name, rule in vars(navigation).items() if isinstance(rule, Rule)}
+CIRCULATORS = {name: found for name, found in vars(circulation).items() if isinstance(found, Circulator)}
+every_mesh = pytest.mark.parametrize("specimen", ZOO.values(), ids=ZOO)
+
+
+def letter(rule):
+    """The kind of element that a rule or a circulator takes, by the name of its parameter; none for sizes."""
+    return [*inspect.signature(rule.__wrapped__).parameters, ""][1]
+
+
+def indices(mesh, kind):
+    n = {"v": mesh.n_vertices, "h": mesh.n_halfedges, "e": mesh.n_edges, "f": mesh.n_faces}[kind]
+    return np.arange(n)
+
+
+def test_every_rule_and_circulator_is_public():
+    assert set(RULES) == set(navigation.__all__)
+    assert set(CIRCULATORS) == set(circulation.__all__)
+    assert set(RULES) | set(CIRCULATORS) <= set(hm.__all__)
+
+
+def caller(rule):
+    """A kernel that asks a rule about all elements: what compiled code gets when it calls the rule."""
+    if not letter(rule):
+
+        @kernel
+        def ask(t, n, out):
+            out[0] = rule(t)
+    else:
+
+        @kernel
+        def ask(t, n, out):
+            for i in range(n):
+                out[i] = rule(t, i)
+
+    return ask
+
+
+@pytest.mark.parametrize("name", RULES)
+def test_rule_says_the_same_in_every_gear(name):
+    """D9, Q3-Q6: on every mesh of the zoo. A rule that is added to `navigation` is tested without a word here."""
+    rule, kind = RULES[name], letter(RULES[name])
+    ask = caller(rule)
+    for specimen in ZOO.values():
+        mesh = specimen.mesh()
+        elements = indices(mesh, kind) if kind else np.arange(1)
+        compiled, interpreted = (np.full(len(elements), -99) for _ in range(2))
+        ask(mesh, len(elements), compiled)
+        ask.interpreted(mesh, len(elements), interpreted)
+        by_int = [int(rule(mesh, int(i)) if kind else rule(mesh)) for i in elements]
+        vectorised = np.asarray(rule(mesh, elements)).astype(int) if kind else np.array(by_int)
+        assert compiled.tolist() == interpreted.tolist() == by_int == vectorised.tolist(), specimen.name
+
+
+@pytest.mark.large
+@pytest.mark.parametrize("name", [name for name in RULES if letter(RULES[name])])
+def test_rule_compiled_by_itself_says_the_same(name):
+    """The dispatcher of the rule, as Python calls it; its columns are read without Numba's test for negatives."""
+    rule, mesh = RULES[name], ZOO["mixed degrees"].mesh()
+    elements = indices(mesh, letter(rule))
+    alone = [int(rule.compiled(mesh.__compiled__(), i)) for i in elements]
+    assert alone == np.asarray(rule(mesh, elements)).astype(int).tolist()
+
+
+WORDS = {
+    "next_of": Reference.next,
+    "prev_of": Reference.prev,
+    "ccw_of": Reference.ccw,
+    "cw_of": Reference.cw,
+    "target_of": Reference.target,
+    "origin_of": lambda twin, h: twin.origin[h],
+    "face_of": lambda twin, h: twin.face_of[h],
+    "opposite_face_of": lambda twin, h: twin.face_of[h ^ 1],
+    "twin_of": lambda twin, h: h + 1 if h % 2 == 0 else h - 1,
+    "edge_of": lambda twin, h: h // 2,
+    "is_exterior": lambda twin, h: twin.face_of[h] == -1,
+    "halfedge_of_edge": lambda twin, e: 2 * e,
+    "halfedge_of_vertex": Reference.vertex_halfedge,
+    "halfedge_of_face": lambda twin, f: twin.loop[f][0],
+    "is_boundary_edge": lambda twin, e: -1 in (twin.face_of[2 * e], twin.face_of[2 * e + 1]),
+    "is_isolated": lambda twin, v: not twin.ring[v],
+    "is_boundary_vertex": Reference.touches_gap,
+    "vertex_slots": lambda twin: twin.n_vertices,
+    "halfedge_slots": lambda twin: twin.n_darts,
+    "edge_slots": lambda twin: twin.n_darts // 2,
+    "face_slots": lambda twin: len(twin.loop),
+    "outgoing": lambda twin, v: twin.ring[v],
+    "incoming": lambda twin, v: [h ^ 1 for h in twin.ring[v]],
+    "neighbors": Reference.neighbors,
+    "edges_around": lambda twin, v: [h // 2 for h in twin.ring[v]],
+    "faces_around": Reference.faces_around,
+    "loop": lambda twin, h: walked(twin, h),
+    "face_halfedges": lambda twin, f: twin.loop[f],
+    "face_vertices": lambda twin, f: twin.faces[f],
+    "face_edges": lambda twin, f: [h // 2 for h in twin.loop[f]],
+    "face_neighbors": Reference.face_neighbors,
+}
+
+
+def walked(twin, h):
+    path = [h]
+    while twin.next(path[-1]) != h:
+        path.append(twin.next(path[-1]))
+    return path
+
+
+def test_the_slow_twin_knows_every_word():
+    assert set(WORDS) == set(RULES) | set(CIRCULATORS)
+
+
+@every_mesh
+def test_rules_agree_with_the_slow_twin(specimen):
+    """D9, Q3-Q6, Q10."""
+    mesh = specimen.mesh()
+    twin = Reference(specimen.faces, specimen.figures.n_vertices, specimen.twins, specimen.edges)
+    for name, rule in RULES.items():
+        arguments = [[int(i)] for i in indices(mesh, letter(rule))] if letter(rule) else [[]]
+        assert [rule(mesh, *a) for a in arguments] == [WORDS[name](twin, *a) for a in arguments], name
+
+
+@every_mesh
+def test_circulators_agree_with_the_slow_twin(specimen):
+    """Q1, Q2, Q7, Q8: the order is counter-clockwise, and rings end at the gap."""
+    mesh = specimen.mesh()
+    twin = Reference(specimen.faces, specimen.figures.n_vertices, specimen.twins, specimen.edges)
+    for name, circulator in CIRCULATORS.items():
+        for i in indices(mesh, letter(circulator)).tolist():
+            assert list(circulator(mesh, i)) == WORDS[name](twin, i), name
+
+
+def collector(circulator):
+    """A kernel that writes down what a circulator yields around all elements, -7 after each."""
+
+    @kernel
+    def collect(t, n, out):
+        k = 0
+        for i in range(n):
+            for x in circulator(t, i):
+                out[k] = x
+                k += 1
+            out[k] = -7
+            k += 1
+        return k
+
+    return collect
+
+
+@pytest.mark.parametrize("name", CIRCULATORS)
+def test_circulator_says_the_same_written_out_and_as_a_generator(name):
+    """Q2, Q8: the loop written out and compiled, interpreted, and the plain generator."""
+    collect = collector(CIRCULATORS[name])
+    for specimen in ZOO.values():
+        mesh = specimen.mesh()
+        elements = indices(mesh, letter(CIRCULATORS[name]))
+        room = sum(len(list(CIRCULATORS[name](mesh, int(i)))) + 1 for i in elements)
+        compiled, interpreted = (np.full(room, -99) for _ in range(2))
+        assert collect(mesh, len(elements), compiled) == collect.interpreted(mesh, len(elements), interpreted) == room
+        expected = [x for i in elements for x in [*CIRCULATORS[name](mesh, int(i)), -7]]
+        assert compiled.tolist() == interpreted.tolist() == expected, specimen.name
+
+
+# ------------------------------------------------------------------------------------------------- shapes of user loops
+
+
+@kernel
+def with_break(t, out):
+    for v in range(hm.vertex_slots(t)):
+        for h in outgoing(t, v):
+            if t.face[h] < 0:
+                break
+            out[v] += h
+        else:
+            out[v] -= 1000
+
+
+@kernel
+def with_continue(t, out):
+    for v in range(hm.vertex_slots(t)):
+        for u in neighbors(t, v):
+            if u % 2:
+                continue
+            out[v] += u + 1
+
+
+@kernel
+def nested(t, out):
+    for v in range(hm.vertex_slots(t)):
+        for h in outgoing(t, v):
+            for g in loop(t, h):
+                if g == h ^ 1:
+                    break
+                for f in faces_around(t, t.origin[g]):
+                    if f == t.face[g]:
+                        continue
+                    out[v] += 10 * f + g
+
+
+@kernel
+def by_attribute(t, out):
+    for v in range(hm.vertex_slots(t)):
+        for e in hm.edges_around(t, v):
+            out[v] += hm.is_boundary_edge(t, e) + 2 * hm.halfedge_of_edge(t, e)
+
+
+@kernel
+def two_in_a_row(t, out):
+    for v in range(hm.vertex_slots(t)):
+        for h in incoming(t, v):
+            out[v] += h
+        for h in outgoing(t, v):
+            out[v] -= 2 * h
+        out[v] += h if hm.halfedge_of_vertex(t, v) >= 0 else 0
+
+
+@kernel
+def inside_a_while(t, out):
+    for v in range(hm.vertex_slots(t)):
+        n = 0
+        while n < 3:
+            for f in faces_around(t, v):
+                n += 1
+                if f > 1:
+                    break
+                for e in face_edges(t, f):
+                    out[v] += e
+                for u in face_vertices(t, f):
+                    out[v] += u
+            n += 1
+
+
+@kernel
+def with_an_early_return(t, out):
+    for v in range(hm.vertex_slots(t)):
+        for h in outgoing(t, v):
+            if h == 7:
+                return
+            out[v] += 1
+
+
+@kernel
+def with_expressions_as_arguments(t, out):
+    for f in range(hm.face_slots(t)):
+        first = t.face_halfedge[f]
+        for h in outgoing(t, hm.target_of(t, hm.next_of(t, first))):
+            out[f % len(out)] += h
+        for g in face_neighbors(t, max(f - 1, 0)):
+            out[f % len(out)] += g
+        for g in face_halfedges(t, f):
+            out[f % len(out)] += g
+
+
+@kernel
+def with_a_shadowed_name(t, out):
+    for v in range(hm.vertex_slots(t)):
+        total = 0
+        for loop in range(3):  # noqa: F402 - that is the point: here it is no circulator
+            total += loop
+        out[v] += total
+
+
+def _closing_over(circulator, weight):
+    @kernel
+    def closing(t, out):
+        for v in range(hm.vertex_slots(t)):
+            for x in circulator(t, v):
+                out[v] += weight * x
+
+    return closing
+
+
+def _helper_in_a_closure():
+    @kernel
+    def weight(t, h):
+        total = 0
+        for g in loop(t, h):
+            total += g
+        return total
+
+    @kernel
+    def sums(t, out):
+        for v in range(hm.vertex_slots(t)):
+            for h in outgoing(t, v):
+                out[v] += weight(t, h)
+
+    return sums
+
+
+USERS = [
+    with_break,
+    with_continue,
+    nested,
+    by_attribute,
+    two_in_a_row,
+    inside_a_while,
+    with_an_early_return,
+    with_expressions_as_arguments,
+    with_a_shadowed_name,
+    _closing_over(neighbors, 3),
+    _closing_over(edges_around, -1),
+    _helper_in_a_closure(),
+]
+
+
+@pytest.mark.parametrize("user", USERS, ids=lambda user: user.__name__)
+def test_user_loop_gives_the_same_compiled_and_interpreted(user):
+    """Break, continue, else, nesting, attributes, closures, early return: on every mesh of the zoo."""
+    for specimen in ZOO.values():
+        mesh = specimen.mesh()
+        compiled, interpreted = (np.zeros(max(mesh.n_vertices, 1), dtype=np.int64) for _ in range(2))
+        user(mesh, compiled)
+        user.interpreted(mesh, interpreted)
+        assert compiled.tolist() == interpreted.tolist(), specimen.name
+
+
+def test_user_loops_do_something():
+    """The comparison above would pass for loops that never run."""
+    mesh = ZOO["mixed degrees"].mesh()
+    for user in USERS:
+        out = np.zeros(mesh.n_vertices, dtype=np.int64)
+        user(mesh, out)
+        assert out.any(), user.__name__
+
+
+@pytest.mark.large
+@pytest.mark.parametrize("user", [u for u in USERS if u is not with_a_shadowed_name], ids=lambda user: user.__name__)
+def test_every_loop_over_a_circulator_is_written_out(user):
+    """No generator is left in the compiled code: that is where its speed comes from."""
+    used = {*user.compiled.py_func.__code__.co_names, *user.compiled.py_func.__code__.co_freevars}
+    assert not used & {*CIRCULATORS, "circulator"}
+    assert any(name.startswith("_loop0") for name in user.compiled.py_func.__code__.co_varnames)
+
+
+def test_kernel_without_source_text_still_runs():
+    """Typed at a prompt: the loops can't be written out, so Numba's generators serve."""
+    scope = {"kernel": kernel, "outgoing": outgoing, "faces_around": faces_around, "hm": hm}
+    exec(
+        "@kernel\n"
+        "def typed(t, out):\n"
+        "    for v in range(hm.vertex_slots(t)):\n"
+        "        for h in outgoing(t, v):\n"
+        "            out[v] += h\n"
+        "        for f in faces_around(t, v):\n"
+        "            out[v] += 100 * f\n",
+        scope,
+    )
+    for name in ("mixed degrees", "isolated vertices", "bow tie", "kite"):
+        mesh = ZOO[name].mesh()
+        compiled, interpreted = (np.zeros(mesh.n_vertices, dtype=np.int64) for _ in range(2))
+        scope["typed"](mesh, compiled)
+        scope["typed"].interpreted(mesh, interpreted)
+        assert compiled.tolist() == interpreted.tolist(), name
+
+
+def test_the_step_is_taken_before_the_body_runs():
+    """So that a body may relink what it stands on, and both gears agree: here it cuts the ring short."""
+
+    @kernel
+    def cutting(t, out):
+        k = 0
+        for h in outgoing(t, 0):
+            t.prev[h] = h ^ 1  # ccw(h) is h from now on
+            out[k] = h
+            k += 1
+
+    ring = [h.index for h in ZOO["wheel"].mesh().vertices[0].outgoing()]
+    for run in (cutting, cutting.interpreted):
+        mesh = ZOO["wheel"].mesh()
+        out = np.full(len(ring), -1)
+        run(mesh, out)
+        assert out.tolist() == ring
