@@ -16,6 +16,6 @@ def test_example_runs(
     path: Path, gear: str, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     if gear == "interpreted":
-        monkeypatch.setattr("halfmesh._jit._interpret_only", True)
+        monkeypatch.setattr("halfmesh._jit.gears.interpret_only", True)
     runpy.run_path(str(path), run_name="__main__")
     assert capsys.readouterr().out, "an example tells what it found"
