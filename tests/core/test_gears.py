@@ -387,7 +387,7 @@ def test_the_step_is_taken_before_the_body_runs():
         for h in outgoing(t, 0):
             t.prev[h] = h ^ 1  # ccw(h) is h from now on
             out[k] = h
-            k += 1
+            k += 1  # noqa: SIM113 - kernels know no enumerate
 
     ring = [h.index for h in ZOO["wheel"].mesh().vertices[0].outgoing()]
     for run in (cutting, cutting.interpreted):
