@@ -12,12 +12,13 @@ import numpy as np
 from halfmesh._jit import gears
 from halfmesh._jit.arguments import Views, arrays, interpretable, lowered, refresh, view
 from halfmesh._jit.compiler import Compilable, dispatcher
-from halfmesh._jit.loops import unrolled
+from halfmesh._jit.loops import inlined, unrolled
 
 __all__ = ["Circulator", "Kernel", "Rule", "all_kernels", "circulator", "kernel", "rule"]
 
 P = ParamSpec("P")
 R = TypeVar("R")
+F = TypeVar("F", bound=Callable[..., Any])
 
 all_kernels: list[Kernel[Any, Any]] = []
 
@@ -90,6 +91,10 @@ class Rule(Kernel[P, R]):
     def compiled(self) -> Any:
         """The dispatcher; its column reads skip Numba's test for negative indices, 8-13 % of a one-ring loop."""
         return dispatcher(self.py_func, unchecked=True)
+
+    def written_into(self, function: F, name: str) -> F:
+        """The function with this rule's one expression in place of its calls ``name(t, i)``: saves a Python call."""
+        return inlined(function, name, self.py_func)  # type: ignore[arg-type,return-value]
 
     def __call__(self, *args: P.args, **kwargs: P.kwargs) -> R:
         t, *rest = args
@@ -256,7 +261,7 @@ def _plain(function: types.FunctionType) -> Any:
     if function in _plain_of:
         return _plain_of[function]
     scope = dict(function.__globals__)
-    closure = tuple(types.CellType(_bare(cell.cell_contents)) for cell in function.__closure__ or ())
+    closure = tuple(types.CellType() for _ in function.__closure__ or ())
     made = types.FunctionType(function.__code__, scope, function.__name__, function.__defaults__, closure or None)
     made.__kwdefaults__, made.__qualname__, made.__module__ = (
         function.__kwdefaults__,
@@ -264,6 +269,8 @@ def _plain(function: types.FunctionType) -> Any:
         function.__module__,
     )
     _plain_of[function] = made  # before the kernels it calls: it may call itself
+    for cell, original in zip(closure, function.__closure__ or (), strict=True):
+        cell.cell_contents = _bare(original.cell_contents)
     for name in function.__code__.co_names:
         if name in scope:
             scope[name] = _bare(scope[name])

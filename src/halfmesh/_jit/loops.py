@@ -22,12 +22,13 @@ the user's own text.
 from __future__ import annotations
 
 import ast
+import copy
 import inspect
 import textwrap
 import types
 from typing import Any, Protocol, TypeGuard
 
-__all__ = ["LoopRule", "unrolled", "with_column_reads"]
+__all__ = ["LoopRule", "inlined", "unrolled", "with_column_reads"]
 
 
 class LoopRule(Protocol):
@@ -69,6 +70,41 @@ class _ColumnReads(ast.NodeTransformer):
             return node
         call = ast.Call(func=ast.Name(id="_read", ctx=ast.Load()), args=[node.value, node.slice], keywords=[])
         return ast.copy_location(ast.fix_missing_locations(ast.copy_location(call, node)), node)
+
+
+def inlined(function: types.FunctionType, name: str, rule: types.FunctionType) -> types.FunctionType:
+    """The function with its calls of `name` replaced by the one expression that `rule` returns."""
+    tree, body = _parsed(function), _parsed(rule)
+    if tree is None or body is None:
+        return function
+    definition = body.body[0]
+    assert isinstance(definition, ast.FunctionDef)
+    returned = definition.body[-1]
+    if not isinstance(returned, ast.Return) or returned.value is None:
+        return function
+    parameters = [argument.arg for argument in definition.args.args]
+    code = _compiled(_Inliner(name, parameters, returned.value).visit(tree), function)
+    return function if code is None else _assembled(function, code, dict(function.__globals__))
+
+
+class _Inliner(ast.NodeTransformer):
+    def __init__(self, name: str, parameters: list[str], expression: ast.expr) -> None:
+        self.name, self.parameters, self.expression = name, parameters, expression
+
+    def visit_Call(self, node: ast.Call) -> Any:
+        self.generic_visit(node)
+        if not isinstance(node.func, ast.Name) or node.func.id != self.name:
+            return node
+        values = dict(zip(self.parameters, node.args, strict=True))
+        return _Substitution(values).visit(copy.deepcopy(self.expression))
+
+
+class _Substitution(ast.NodeTransformer):
+    def __init__(self, values: dict[str, ast.expr]) -> None:
+        self.values = values
+
+    def visit_Name(self, node: ast.Name) -> Any:
+        return copy.deepcopy(self.values[node.id]) if node.id in self.values else node
 
 
 def _may_circulate(function: types.FunctionType, is_circulator: Any) -> bool:

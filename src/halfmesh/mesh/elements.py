@@ -136,24 +136,29 @@ def made(kind: type[E], t: Any, index: int) -> E:
 
 def step(rule: Any, kind: str, *, reads: bool = True) -> Callable[[Callable[[Any], R]], _Step[R]]:
     """Declare a property that follows one rule to an element of that kind; `reads` a column, or is arithmetic."""
-    return lambda function: _Step(rule.plain, kind, reads, function.__doc__)
+    return lambda function: _Step(rule, kind, reads, function.__doc__)
 
 
 class _Step(Generic[R]):
-    """What `step` declares; `bind` writes the fast getter once the handle classes exist."""
+    """What `step` declares. The first use writes the getter and puts it in its own place."""
 
     def __init__(self, rule: Any, kind: str, reads: bool, doc: str | None) -> None:
         self.rule, self.kind, self.reads, self.__doc__ = rule, kind, reads, doc
 
+    def __set_name__(self, owner: type[Element], name: str) -> None:
+        self.owner, self.name = owner, name
+
     @overload
-    def __get__(self, instance: None, owner: type) -> _Step[R]: ...
+    def __get__(self, instance: None, owner: type) -> property: ...
     @overload
     def __get__(self, instance: Element, owner: type) -> R: ...
-    def __get__(self, instance: Element | None, owner: type) -> _Step[R] | R:
-        raise AssertionError("replaced by a property when the module is loaded")
+    def __get__(self, instance: Element | None, owner: type) -> property | R:
+        made = property(self._getter(), doc=self.__doc__)
+        setattr(self.owner, self.name, made)
+        return made.__get__(instance, owner)
 
-    def bind(self, kinds: dict[str, type[Element]], per_slot: int) -> property:
-        rule, kind, new = self.rule, kinds[self.kind], _new
+    def _getter(self) -> Callable[[Any], Any]:
+        rule, kind, new, per_slot = self.rule.plain, _KINDS[self.kind], _new, 2 if self.owner is Edge else 1
 
         def get(self: Any) -> Any:
             t = self._t
@@ -175,7 +180,8 @@ class _Step(Generic[R]):
             made.index = rule(t, index)
             return made
 
-        return property(get if self.reads else get_checked, doc=self.__doc__)
+        getter: Callable[[Any], Any] = self.rule.written_into(get if self.reads else get_checked, "rule")
+        return getter
 
 
 class Vertex(Element):
@@ -380,8 +386,3 @@ class Face(Element):
 
 
 _KINDS: dict[str, type[Element]] = {"vertex": Vertex, "halfedge": Halfedge, "edge": Edge, "face": Face}
-
-for _kind in _KINDS.values():
-    for _name, _word in list(vars(_kind).items()):
-        if isinstance(_word, _Step):
-            setattr(_kind, _name, _word.bind(_KINDS, 2 if _kind is Edge else 1))
