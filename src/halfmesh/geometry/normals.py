@@ -10,7 +10,7 @@ from halfmesh._jit import kernel
 from halfmesh.core.circulation import outgoing
 from halfmesh.core.navigation import face_of, halfedge_of_face
 from halfmesh.geometry._passes import Floats, points_of, run
-from halfmesh.geometry._ring_normals import buffers, ring_normals
+from halfmesh.geometry._ring_normals import buffers, normals_by_angle, normals_by_area
 from halfmesh.geometry._vectors import plus, point, scaled, unit
 from halfmesh.geometry.angles import corner_angles
 from halfmesh.geometry.areas import face_vectors
@@ -74,8 +74,8 @@ def vertex_normals(mesh: Mesh, *, weights: Literal["angle", "area"] = "angle") -
 
     Notes
     -----
-    O(n), on all threads. Faces first, then each vertex gathers along its ring: no two threads write to one place, and
-    the sum is always taken in the same order.
+    O(n), on all threads. Each vertex gathers along its ring: no two threads write to one place, and the sum is always
+    taken in the same order. Meshes of triangles take one pass; others measure the faces first.
 
     References
     ----------
@@ -89,17 +89,19 @@ def vertex_normals(mesh: Mesh, *, weights: Literal["angle", "area"] = "angle") -
     >>> hm.geometry.vertex_normals(hm.shapes.octahedron())[0].tolist()
     [1.0, 0.0, 0.0]
     """
-    t = mesh.topology
+    if weights not in ("angle", "area"):
+        raise ValueError(f"weights must be 'angle' or 'area', not {weights!r}")
+    t, points = mesh.topology, points_of(mesh)
     n = len(t.vertex_halfedge)
     normals = np.empty((n, 3))
-    if weights == "angle" and mesh.is_triangular:
-        run(ring_normals, n, t, points_of(mesh), normals, scratch=buffers)
+    if mesh.is_triangular and weights == "angle":
+        run(normals_by_angle, n, t, points, normals, scratch=buffers)
+    elif mesh.is_triangular:
+        run(normals_by_area, n, t, points, normals)
     elif weights == "angle":
         run(_weighted_means, n, t, face_normals(mesh), corner_angles(mesh), normals)
-    elif weights == "area":
-        run(_means, n, t, face_vectors(mesh), normals)
     else:
-        raise ValueError(f"weights must be 'angle' or 'area', not {weights!r}")
+        run(_means, n, t, face_vectors(mesh), normals)
     return normals
 
 
