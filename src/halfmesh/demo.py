@@ -51,7 +51,7 @@ class Section:
 
 @hm.kernel
 def smooth(t, points, out):  # type: ignore[no-untyped-def]
-    """Every vertex moves to the mean of its neighbors; the boundary stays."""
+    """Move every vertex to the mean of its neighbors."""
     for v in range(len(out)):
         x = y = z = 0.0
         n = 0
@@ -80,14 +80,17 @@ def make_example(folder: Path, size: str = "large") -> tuple[Path, Section]:
         327,680 or 5,120 triangles.
     """
     folder.mkdir(parents=True, exist_ok=True)
-    mesh = hm.shapes.icosphere(LEVELS[size])
-    noise = 0.2 * float(hm.geometry.edge_lengths(mesh).mean())
-    mesh.points += np.random.default_rng(0).normal(scale=noise, size=mesh.points.shape)
     path = folder / "sphere.off"
+    started = time.perf_counter()
+    mesh = hm.shapes.icosphere(LEVELS[size])
+    noise = 0.2 * mesh.edges[0].length
+    mesh.points += np.random.default_rng(0).normal(scale=noise, size=mesh.points.shape)
+    made = time.perf_counter()
     hm.save(mesh, path)
+    times = f"made in {_time(made - started)}, written in {_time(time.perf_counter() - made)}"
     counts = f"{mesh.n_vertices:,} points, {mesh.n_faces:,} triangles"
-    text = f"{path}: a noisy sphere, {counts}, {path.stat().st_size / 1e6:.3g} MB"
-    return path, Section("A mesh in a file", [text])
+    text = [f"{path}: a noisy sphere, {counts}, {path.stat().st_size / 1e6:.3g} MB", f"{times} (first calls)"]
+    return path, Section("A mesh in a file", text)
 
 
 def explore(path: Path) -> Iterator[Section]:
@@ -112,16 +115,16 @@ def _build(path: Path) -> tuple[hm.Mesh, Section]:
 
     def step(code: str, call: Callable[[], R], amount: Callable[[R], int], unit: str) -> R:
         result, first, again = _first_and_again(call)
-        section.rows.append((code, _time(first), _time(again), f"{_amount(amount(result) / again)}{unit}"))
+        section.rows.append((code, _time(first), _time(again), _amount(amount(result) / again, unit)))
         return result
 
-    n_bytes = path.stat().st_size
+    n_bytes, normals = path.stat().st_size, hm.geometry.vertex_normals
     faces, points = step("hm.io.read(path)", lambda: hm.io.read(path), lambda _: n_bytes, "B")
-    mesh = step("hm.Mesh(faces, points)", lambda: hm.Mesh(faces, points), lambda made: made.n_faces, " faces")
-    step("mesh.check()", mesh.check, lambda _: mesh.n_faces, " faces")
-    step("mesh.vertex_neighbors()", mesh.vertex_neighbors, lambda _: mesh.n_vertices, " rings")
-    normals = hm.geometry.vertex_normals
-    step("hm.geometry.vertex_normals(mesh)", lambda: normals(mesh), lambda _: mesh.n_vertices, " normals")
+    step("hm.Mesh(faces, points)", lambda: hm.Mesh(faces, points), lambda made: made.n_faces, "faces")
+    mesh = step("mesh = hm.load(path)  # both", lambda: hm.load(path), lambda _: n_bytes, "B")
+    step("mesh.check()", mesh.check, lambda _: mesh.n_faces, "faces")
+    step("mesh.vertex_neighbors()", mesh.vertex_neighbors, lambda _: mesh.n_vertices, "rings")
+    step("hm.geometry.vertex_normals(mesh)", lambda: normals(mesh), lambda _: mesh.n_vertices, "normals")
     section.remarks.append("A first call compiles, or reads what an earlier run has compiled.")
     return mesh, section
 
@@ -155,7 +158,7 @@ def _loop(mesh: hm.Mesh) -> Section:
     section.header, section.figures, section.codes = ("", "vertices", "time", "a vertex"), [1, 2, 3], [0]
 
     def row(call: str, seconds: float, n: int) -> float:
-        section.rows.append((call, f"{n:,}", _time(seconds), _time(seconds / max(n, 1))))
+        section.rows.append((call, f"{n:,}", _time(seconds), _time(seconds / n) if n else "-"))
         return seconds / max(n, 1)
 
     points = mesh.points
@@ -176,22 +179,23 @@ def _loop(mesh: hm.Mesh) -> Section:
             "equal to the last bit" if np.array_equal(compiled[:n_plain], plain) else f"equal within {difference:.1e}"
         )
         section.remarks.append(f"{slow / fast:,.0f} x as fast as plain Python, on one thread, and {same}.")
-    if mesh.n_edges and mesh.has_points:
+    if mesh.n_edges and bool(np.isfinite(points).all()):
         section.remarks.append(_smoothed(mesh))
     return section
 
 
 def _smoothed(mesh: hm.Mesh) -> str:
-    """What some passes do: how far a vertex lies from the mean of its neighbors, in edge lengths."""
-    length = float(hm.geometry.edge_lengths(mesh).mean())
+    """What some passes do: by how much the vertices come closer to the mean of their neighbors."""
     before, after = mesh.points.copy(), mesh.points.copy()
     distances = []
     for _ in range(PASSES + 1):
         smooth(mesh, before, after)
-        distances.append(math.sqrt(float(np.square(after - before).sum(axis=1).mean())) / length)
+        distances.append(math.sqrt(float(np.square(after - before).sum(axis=1).mean())))
         before, after = after, before
-    first, last = distances[0], distances[-1]
-    return f"{PASSES} passes later, vertices are {last:.2g} edge lengths off that mean; before, {first:.2g}."
+    if distances[-1] == 0.0:
+        return "The points lie there already."
+    closer = distances[0] / distances[-1]
+    return f"{PASSES} passes later, the vertices are {closer:,.3g} x closer to that mean (root mean square)."
 
 
 def draw_structure(folder: Path) -> Section:
@@ -265,12 +269,11 @@ def _seconds(call: Callable[[], object]) -> float:
     return time.perf_counter() - started
 
 
-def _amount(n: float) -> str:
-    """``15.2 M``, ``37.8 k``: three figures."""
-    for unit, size in (("G", 1e9), ("M", 1e6), ("k", 1e3)):
-        if n >= size:
-            return f"{n / size:.3g} {unit}"
-    return f"{n:.3g} "
+def _amount(n: float, unit: str) -> str:
+    """``15.2 M faces``, ``265 MB``: three figures."""
+    prefix, size = next((pair for pair in (("G", 1e9), ("M", 1e6), ("k", 1e3)) if n >= pair[1]), ("", 1.0))
+    gap = " " if prefix and unit != "B" else ""
+    return f"{n / size:.3g} {prefix}{gap}{unit}"
 
 
 def _time(seconds: float) -> str:

@@ -6,6 +6,7 @@ demo; the work is done by the rooms below. Click and Rich are known to this room
 
 from __future__ import annotations
 
+import io
 import sys
 
 __all__ = ["main"]
@@ -17,6 +18,8 @@ def main() -> None:
     Exit codes: 0 all is well, 1 a file or the system refused (one line on stderr says why), 2 the command was not
     understood, 130 interrupted.
     """
+    if isinstance(sys.stdout, io.TextIOWrapper):  # a name that the terminal can't show is shown escaped
+        sys.stdout.reconfigure(errors="backslashreplace")
     try:
         from halfmesh.cli.app import app
 

@@ -67,15 +67,15 @@ def info(files: tuple[Path, ...], as_json: bool) -> None:
     from halfmesh.cli import pages
     from halfmesh.cli.report import Report
 
-    reports = []
-    for place, path in enumerate(files):
+    reports: list[Report] = []
+    for path in files:
         report = Report.of(path)
-        reports.append(report)
-        if not as_json:
-            pages.show_report(report, first=place == 0)
+        if not as_json and report.rows():
+            pages.show_report(report, first=not any(before.rows() for before in reports))
         if report.error is not None:
             sys.stdout.flush()
             complain(report.complaint)
+        reports.append(report)
     if as_json:
         pages.show_json([report.as_dict() for report in reports])
     _exit_if(any(report.error is not None for report in reports))
@@ -141,10 +141,7 @@ def demo(files: tuple[Path, ...], out: Path, size: str) -> None:
     """
     from halfmesh.cli.tour import show_tour
 
-    complaints = show_tour(files, out, size)
-    for message in complaints:
-        complain(message)
-    _exit_if(bool(complaints))
+    _exit_if(not show_tour(files, out, size))
 
 
 def _exit_if(failed: bool) -> None:

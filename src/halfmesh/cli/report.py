@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import time
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -81,23 +82,25 @@ class Report:
         """A mesh that can be held is oriented alike everywhere; a closed one looks outward or inward."""
         self.orientation = "consistent"
         if mesh.n_faces and not mesh.has_boundary:
-            self.volume = float(hm.geometry.volume(mesh))
-            looks = "outward" if self.volume > 0 else "inward" if self.volume < 0 else "neither out nor in"
-            self.orientation = f"consistent, facing {looks} (volume {self.volume:.4g})"
+            volume = float(hm.geometry.volume(mesh))
+            if volume != 0.0 and math.isfinite(volume):  # a flat or broken body has no outside
+                self.orientation += f", facing {'outward' if volume > 0 else 'inward'} (volume {volume:.4g})"
+                self.volume = volume
 
     def rows(self) -> list[tuple[str, str]]:
-        """Label and value of each line of the table."""
-        made = [("file", f"{self.format}, {size_text(self.n_bytes)}")] if self.format else []
+        """Label and value of each line of the table; none for what can't be read."""
+        if self.summary is None and not self.plain:
+            return []
+        made = [("file", f"{self.format}, {size_text(self.n_bytes)}")]
         if self.summary is not None:
             *shape, memory, built = self.summary.rows()
             made += [*shape, ("orientation", self.orientation), memory]
             made += [("read in", f"{1000 * self.read_seconds:.3g} ms"), built]
-        elif self.plain:
+        else:
             kinds = ", ".join(f"degree {d} {n:,}" for d, n in self.plain["face_degrees"].items()) or "none"
             made += [("points", f"{self.plain['vertices']:,}"), ("faces", f"{self.plain['faces']:,}")]
             made += [("  by degree", kinds), ("read in", f"{1000 * self.read_seconds:.3g} ms")]
-        if self.error is not None:
-            made.append(("can't be held" if self.plain else "can't be read", self._reason()))
+            made.append(("as a mesh", f"can't be held: {getattr(self.error, 'reason', '').replace('_', ' ')}"))
         return made
 
     @property
@@ -107,9 +110,6 @@ class Report:
         assert s is not None
         loops = {0: "closed", 1: "1 boundary loop"}.get(s.boundary_loops, f"{s.boundary_loops:,} boundary loops")
         return f"{s.vertices:,} vertices, {s.edges:,} edges, {s.faces:,} faces, {loops}"
-
-    def _reason(self) -> str:
-        return self.complaint.removeprefix(str(self.path)).lstrip(":, ")
 
     @property
     def complaint(self) -> str:

@@ -13,7 +13,7 @@ from rich.text import Text
 import halfmesh as hm
 from halfmesh import _jit
 from halfmesh.cli.pages import console, print_table
-from halfmesh.cli.words import complaint_about
+from halfmesh.cli.words import complain, complaint_about
 from halfmesh.demo import Section, draw_structure, explore, make_example
 from halfmesh.errors import HalfmeshError
 from halfmesh.warmup import n_compiled_here
@@ -24,13 +24,21 @@ if TYPE_CHECKING:
 __all__ = ["show_tour"]
 
 
-def show_tour(files: tuple[Path, ...], folder: Path, size: str) -> list[str]:
-    """Print the demo on these files, or on a mesh that it makes; what went wrong with which file."""
+def show_tour(files: tuple[Path, ...], folder: Path, size: str) -> bool:
+    """Print the demo on these files, or on a mesh that it makes; False if one was refused."""
     out = console()
     started = time.perf_counter()
     versions = f"halfmesh {hm.__version__}, Python {platform.python_version()}, NumPy {np.__version__}"
     out.print(Text(f"{versions}, {_jit.n_threads()} threads", style="dim"))
-    complaints = []
+    with out.status(Text("working ...", style="dim"), spinner="line", refresh_per_second=4):
+        refused = _tour(out, files, folder, size)
+    _show_end(out, time.perf_counter() - started)
+    return refused == 0
+
+
+def _tour(out: Console, files: tuple[Path, ...], folder: Path, size: str) -> int:
+    shown: set[str] = set()
+    refused = 0
     if not files:
         path, section = make_example(folder, size)
         _show(out, section)
@@ -38,12 +46,16 @@ def show_tour(files: tuple[Path, ...], folder: Path, size: str) -> list[str]:
     for path in files:
         try:
             for section in explore(path):
+                section.code, code = "" if section.code in shown else section.code, section.code
+                shown.add(code)  # the loop of the user is the same for every file: once is enough
                 _show(out, section)
+        except BrokenPipeError:  # the reader of the output has gone, the file is not to blame
+            raise
         except (HalfmeshError, OSError) as error:
-            complaints.append(complaint_about(path, error))
+            complain(complaint_about(path, error))
+            refused += 1
     _show(out, draw_structure(folder))
-    _show_end(out, time.perf_counter() - started)
-    return complaints
+    return refused
 
 
 def _show(out: Console, section: Section) -> None:
