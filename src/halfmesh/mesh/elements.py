@@ -86,9 +86,9 @@ class Element:
         t, value = self._t, circulator.value and circulator.value.plain
         step, end = circulator.step.plain, circulator.start.plain(t, self.index)
         at = end
+        if at < 0:
+            return
         for _ in range(2 * t.counts[1]):
-            if at < 0:
-                return
             found = at if value is None else value(t, at)
             at = step(t, at)
             if found >= 0 or not circulator.skips:
