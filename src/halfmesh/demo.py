@@ -167,7 +167,7 @@ def _loop(mesh: hm.Mesh) -> Section:
     seconds = _seconds(lambda: smooth.interpreted(mesh, points, plain))
     slow = row("smooth.interpreted(mesh, points, out)", seconds, n_plain)
     if _jit.gears.interpret_only:
-        section.remarks.append("NUMBA_DISABLE_JIT is set: nothing is compiled, so there is nothing to compare with.")
+        section.remarks.append("NUMBA_DISABLE_JIT is set: there is nothing to compare with.")
         return section
     compiled = points.copy()
     _, first, again = _first_and_again(lambda: smooth(mesh, points, compiled))

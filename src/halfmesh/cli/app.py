@@ -125,8 +125,11 @@ def convert(source: Path, target: Path) -> None:
 @app.command()
 def warmup() -> None:
     """Compile all kernels of the library now, so that nothing has to wait for it later."""
+    from halfmesh._jit import gears
     from halfmesh.cli import pages
 
+    if gears.interpret_only:
+        raise Refusal("NUMBA_DISABLE_JIT is set: there is nothing to compile")
     pages.show_warmup()
 
 

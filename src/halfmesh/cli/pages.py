@@ -13,6 +13,8 @@ from rich.padding import Padding
 from rich.table import Table
 from rich.text import Text
 
+from halfmesh.cli.words import where_kept
+
 if TYPE_CHECKING:
     from halfmesh.cli.report import Report
 
@@ -77,7 +79,6 @@ def show_warmup() -> None:
     """Compile everything, with a bar, and say where it is kept."""
     from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn
 
-    from halfmesh._jit import cache_folder
     from halfmesh.warmup import n_compiled_here, n_from_cache, warm_up
 
     out = console()
@@ -89,4 +90,4 @@ def show_warmup() -> None:
             progress.update(task, completed=i, total=n, description=name)
     took = time.perf_counter() - started
     click.echo(f"{n_compiled_here()} kernels compiled, {n_from_cache()} were there already: {took:.1f} s")
-    click.echo(f"kept in {cache_folder()}")
+    click.echo(where_kept())

@@ -13,7 +13,7 @@ from rich.text import Text
 import halfmesh as hm
 from halfmesh import _jit
 from halfmesh.cli.pages import console, print_table
-from halfmesh.cli.words import complain, complaint_about
+from halfmesh.cli.words import complain, complaint_about, where_kept
 from halfmesh.demo import Section, draw_structure, explore, make_example
 from halfmesh.errors import HalfmeshError
 from halfmesh.warmup import n_compiled_here
@@ -30,7 +30,9 @@ def show_tour(files: tuple[Path, ...], folder: Path, size: str) -> bool:
     started = time.perf_counter()
     versions = f"halfmesh {hm.__version__}, Python {platform.python_version()}, NumPy {np.__version__}"
     out.print(Text(f"{versions}, {_jit.n_threads()} threads", style="dim"))
-    with out.status(Text("working ...", style="dim"), spinner="line", refresh_per_second=4):
+    with out.status(
+        Text("working (a first run compiles for some seconds) ...", style="dim"), spinner="line", refresh_per_second=4
+    ):
         refused = _tour(out, files, folder, size)
     _show_end(out, time.perf_counter() - started)
     return refused == 0
@@ -77,7 +79,7 @@ def _show(out: Console, section: Section) -> None:
 
 def _show_end(out: Console, seconds: float) -> None:
     n = n_compiled_here()
-    compiled = f"{n} kernels compiled on the way" if n else "nothing had to be compiled: the kernels"
+    compiled = f"{n} kernels were compiled on the way" if n else "no kernel had to be compiled"
     out.print()
-    out.print(Text(f"{seconds:.1f} s in all; {compiled} are kept in", style="dim"))
-    out.print(Text(str(_jit.cache_folder()), style="dim"), soft_wrap=True)
+    out.print(Text(f"{seconds:.1f} s in all; {compiled}", style="dim"))
+    out.print(Text(where_kept(), style="dim"), soft_wrap=True)

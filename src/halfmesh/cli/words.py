@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 
 import click
 
-__all__ = ["complain", "complaint_about", "reason_of", "size_text"]
+from halfmesh import _jit
+
+__all__ = ["complain", "complaint_about", "reason_of", "size_text", "where_kept"]
 
 
 def complain(message: str) -> None:
@@ -35,3 +38,11 @@ def size_text(n_bytes: int) -> str:
             return f"{size:.3g} {unit}"
         size /= 1000
     return f"{size:.3g} GB"
+
+
+def where_kept() -> str:
+    """The folder of the compiled kernels, if there is one."""
+    folder = _jit.cache_folder()
+    if not (folder.is_dir() and os.access(folder, os.W_OK)):
+        return f"not kept for the next run: {folder} can't be written (HALFMESH_CACHE_DIR names another)"
+    return f"kept in {folder}"
