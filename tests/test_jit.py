@@ -150,8 +150,8 @@ def test_kernel_typed_at_a_prompt_runs_again_in_the_next_process(run):
     text = """
         import numpy as np, halfmesh as hm
         scope = {"hm": hm, "__name__": "__main__"}
-        lines = "@hm.kernel", "def typed(t, out):", " for v in range(len(out)):", "  for h in hm.outgoing(t, v):", "   out[v] += h"
-        exec("\\n".join(lines), scope)
+        head = "@hm.kernel\\ndef typed(t, out):\\n for v in range(len(out)):\\n"
+        exec(head + "  for h in hm.outgoing(t, v):\\n   out[v] += h", scope)
         typed = scope["typed"]
         mesh, out = hm.Mesh([[0, 1, 2], [2, 1, 3]]), np.zeros(4, dtype=int)
         typed(mesh, out)

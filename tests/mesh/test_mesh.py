@@ -232,7 +232,7 @@ def test_copy_can_be_used_in_kernels_like_the_original():
         assert out[0] == 24 * 23 // 2
 
 
-# ------------------------------------------------------------------------------------------------- what it says of itself
+# ------------------------------------------------------------------------------------------ what it says of itself
 
 
 def test_repr_is_one_line_that_says_what_it_is():
