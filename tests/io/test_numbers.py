@@ -16,6 +16,7 @@ from halfmesh import io
 from halfmesh.errors import FormatError
 from halfmesh.io.numbers import DECIMAL, INTEGER, UNDECIDED, number, number_from_text, powers_of_ten
 from halfmesh.io.shortest import MOST_BYTES, UNWRITTEN, number_to_text, write_number
+from halfmesh.io.source import PADDING
 
 INTERPRETED = number.plain  # over memoryviews, as `kernel.at` calls it for small files
 GEARS = [number, INTERPRETED]
@@ -31,12 +32,13 @@ def bits(x: float) -> bytes:
 
 
 def parsed(gear: object, text: str) -> tuple[float | None, int]:
-    data = np.frombuffer(text.encode(), dtype=np.uint8).copy()
-    arrays: tuple[Any, Any] = (data, powers_of_ten())
+    padded = np.frombuffer(text.encode() + b"\n" * PADDING, dtype=np.uint8).copy()
+    n = len(padded) - PADDING
+    arrays: tuple[Any, Any] = (padded, powers_of_ten())
     if gear is INTERPRETED:
         arrays = (memoryview(arrays[0]), memoryview(arrays[1]))
-    value, end, kind = gear(arrays[0], 0, len(data), arrays[1])  # type: ignore[operator]
-    assert end == len(data)
+    value, end, kind = gear(arrays[0], 0, n, arrays[1])  # type: ignore[operator]
+    assert end == n
     return (number_from_text(text.encode()) if kind == UNDECIDED else float(value)), int(kind)
 
 

@@ -55,7 +55,7 @@ class _Text:
     def __init__(self, source: Source) -> None:
         self.source = source
         self.size = interpreted_size(source.end)
-        self.bytes = _joined(source)
+        self.bytes = _joined(source)  # padded like that of `source`
         self.spans = source.parts(source.begin)
         counts = np.zeros((len(self.spans), k.N_KINDS), dtype=np.int64)
         jobs = [(self.bytes, *span, counts[n]) for n, span in enumerate(self.spans)]
@@ -182,21 +182,22 @@ def _gathered(values: NDArray[np.float64], rows: NDArray[np.int32]) -> NDArray[n
 
 
 def _joined(source: Source) -> NDArray[np.uint8]:
-    r"""The text with each backslash that joins two lines written as blanks; byte for byte at the same places.
+    r"""The padded text with each backslash that joins two lines written as blanks; byte for byte at the same places.
 
     A comment ends with its line, backslash or not: paths like ``C:\models\`` stand there.
     """
-    data, end = source.data, source.end
+    data = source.data
     at = np.flatnonzero(data == _BACKSLASH)
     if not len(at):
-        return data
-    padded = np.concatenate([data, np.full(2, _FEED, dtype=np.uint8)])  # at the end of the file it joins nothing
-    at = at[(padded[at + 1] == _FEED) | (padded[at + 1] == _RETURN)]
+        return source.padded
+    joined = source.padded.copy()
+    at = at[(joined[at + 1] == _FEED) | (joined[at + 1] == _RETURN)]  # at the end of the file padding follows
     ends = np.flatnonzero((data == _FEED) | (data == _RETURN))
     comments = np.flatnonzero(data == _HASH)
     line = np.concatenate([[0], ends + 1])[np.searchsorted(ends, at)]
     at = at[np.searchsorted(comments, line) == np.searchsorted(comments, at)]
-    both = at[(padded[at + 1] == _RETURN) & (padded[at + 2] == _FEED)]
+    both = at[(joined[at + 1] == _RETURN) & (joined[at + 2] == _FEED)]
     for place in (at, at + 1, both + 2):
-        padded[place] = _SPACE
-    return padded[:end]
+        joined[place] = _SPACE
+    joined[len(data) :] = _FEED
+    return joined

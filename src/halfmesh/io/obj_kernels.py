@@ -20,7 +20,7 @@ from __future__ import annotations
 from typing import Any
 
 from halfmesh._jit import kernel
-from halfmesh.io.numbers import INTEGER, UNDECIDED, is_blank, is_end, number
+from halfmesh.io.numbers import INTEGER, UNDECIDED, is_blank, is_end, number, up_to_eight
 
 __all__ = ["index", "keyword", "read_lines", "resolved", "survey"]
 
@@ -46,7 +46,7 @@ HAS_TEXTURE, HAS_NORMALS, DOTTED = 1, 2, 4
 
 POINTS, EXTRAS, TEXTURES, NORMALS = 0, 1, 2, 3  # the arrays that `undecided` refers to
 MOST_NUMBERS = 7  # of a vertex: x y z and r g b a
-TOO_LARGE = 10**11
+TOO_LARGE = 10**9
 
 
 @kernel
@@ -86,20 +86,17 @@ def survey(b: Any, i: int, end: int, counts: Any) -> None:
 
 
 @kernel
-def index(b: Any, i: int, end: int) -> tuple[int, int, bool]:
+def index(b: Any, i: int) -> tuple[int, int, bool]:
     """Read an integer that may end before a slash: its value, where it ends, whether there is one."""
     negative = b[i] == 45
     if negative or b[i] == 43:
         i += 1
-    value = 0
     start = i
-    while i < end:
-        d = b[i] - 48
-        if d < 0 or d > 9:
-            break
-        if value < TOO_LARGE:
-            value = value * 10 + d
-        i += 1
+    value, n = up_to_eight(b, i, 0)
+    i += n
+    while n == 8:
+        value, n = up_to_eight(b, i, min(value, TOO_LARGE))
+        i += n
     return (-value if negative else value), i, i > start
 
 
@@ -226,15 +223,15 @@ def read_lines(
                 start = i
                 t = 0
                 vn = 0
-                v, i, good = index(b, i, end)
+                v, i, good = index(b, i)
                 if good and i < end and b[i] == 47:
                     i += 1
                     if i < end and b[i] != 47 and not is_end(b[i]):
-                        t, i, good = index(b, i, end)
+                        t, i, good = index(b, i)
                     if good and i < end and b[i] == 47:
                         i += 1
                         if i < end and not is_end(b[i]):
-                            vn, i, good = index(b, i, end)
+                            vn, i, good = index(b, i)
                 if not good or (i < end and not is_end(b[i])):
                     code = BAD_CORNER
                     where = start

@@ -27,11 +27,12 @@ from halfmesh.io.data import Attributes, MeshData
 from halfmesh.io.numbers import powers_of_ten
 from halfmesh.io.off_binary import read_binary
 from halfmesh.io.off_header import Header, as_color, read_header
-from halfmesh.io.source import Source, count_lines, interpreted_size, skip_gaps
+from halfmesh.io.source import Source, count_lines, count_plain_lines, interpreted_size, skip_gaps
 
 __all__ = ["read_off"]
 
 _MOST_OPEN = 2048
+_FEW = 3000  # as `kernel.at` has it
 
 
 def read_off(source: Source) -> MeshData:
@@ -123,7 +124,7 @@ class _Text:
         """One part for each thread if every element has its own line, else one part for the whole text."""
         n_vertices, n_faces = self.header.n_vertices, self.header.n_faces
         spans = self.source.parts(self.begin)
-        lines = parallel(count_lines.at(self.size), [(self.source.data, *span) for span in spans])
+        lines = parallel(self._count_lines, spans)
         if sum(lines) < n_vertices + n_faces:
             self.as_stream = True
             return [self._whole()]
@@ -135,6 +136,11 @@ class _Text:
             parts.append(_Part(begin, end, vertex, last_vertex, face, last_face))
             line += n
         return parts
+
+    def _count_lines(self, begin: int, end: int) -> int:
+        data = self.source.data
+        n = count_plain_lines.at(self.size)(data[begin:end]) if self.size > _FEW else -1
+        return n if n >= 0 else count_lines.at(self.size)(data, begin, end)
 
     def _whole(self) -> _Part:
         return _Part(self.begin, self.source.end, 0, self.header.n_vertices, 0, self.header.n_faces)
@@ -159,7 +165,7 @@ class _Text:
         state = _state(part.begin, part.vertex)
         run = k.read_vertices.at(self.size)
         undecided = np.empty(2 * max(_MOST_OPEN, self.width), dtype=np.int64)
-        data, values = self.source.data, self.values.reshape(-1)
+        data, values = self.source.padded, self.values.reshape(-1)
 
         def step() -> None:
             run(data, part.end, part.last_vertex, self.width, not self.as_stream, self.powers, values, undecided, state)
@@ -174,7 +180,7 @@ class _Text:
         undecided = np.empty(2 * _MOST_OPEN, dtype=np.int64)
         corners = self.room[(part.begin - self.begin) // 2 :]
         form = (self.header.n_vertices, not self.as_stream, self.most_extras, self.powers)
-        data = self.source.data
+        data = self.source.padded
         outputs = (corners, self.degrees, self.extras, self.n_extras, undecided, state)
 
         def step() -> None:

@@ -19,7 +19,7 @@ from __future__ import annotations
 from typing import Any
 
 from halfmesh._jit import kernel
-from halfmesh.io.numbers import INTEGER, UNDECIDED, is_blank, is_end, number
+from halfmesh.io.numbers import INTEGER, UNDECIDED, is_blank, is_end, number, up_to_eight
 from halfmesh.io.source import skip_gaps
 
 __all__ = ["read_faces", "read_vertices", "whole"]
@@ -31,7 +31,7 @@ DONE, AGAIN, FILE_ENDS, LINE_ENDS, LINE_GOES_ON, NOT_WHOLE, NO_SUCH_VERTEX, SMAL
 
 MOST_EXTRAS = 4
 LAST_BIT = 60
-TOO_LARGE = 10**11
+TOO_LARGE = 10**9
 
 
 @kernel
@@ -40,15 +40,12 @@ def whole(b: Any, i: int, end: int) -> tuple[int, int, bool]:
     negative = b[i] == 45
     if negative or b[i] == 43:
         i += 1
-    value = 0
     start = i
-    while i < end:
-        d = b[i] - 48
-        if d < 0 or d > 9:
-            break
-        if value < TOO_LARGE:
-            value = value * 10 + d
-        i += 1
+    value, n = up_to_eight(b, i, 0)
+    i += n
+    while n == 8:
+        value, n = up_to_eight(b, i, min(value, TOO_LARGE))
+        i += n
     good = i > start and (i >= end or is_end(b[i]))
     return (-value if negative else value), i, good
 

@@ -14,9 +14,11 @@ from halfmesh._jit import kernel, n_threads
 from halfmesh.errors import FormatError
 from halfmesh.io.numbers import number_from_text
 
-__all__ = ["Source", "interpreted_size", "n_parts"]
+__all__ = ["PADDING", "Source", "count_lines", "count_plain_lines", "interpreted_size", "n_parts", "skip_gaps"]
 
 Bytes = NDArray[np.uint8]
+
+PADDING = 12  # line ends behind the text, so that digits can be read without asking at each whether the text is over
 
 _PART = 500_000  # bytes; below that a second thread costs more than it saves
 _MOST_SHOWN = 40
@@ -45,6 +47,8 @@ class Source:
     ----------
     path : str
     data, view : ndarray of uint8, memoryview of it
+    padded : ndarray of uint8
+        The same with `PADDING` line ends behind it.
     begin : int
         0, or 3 behind the mark that some editors put before UTF-8 text.
 
@@ -58,7 +62,8 @@ class Source:
 
     def __init__(self, path: str | os.PathLike[str]) -> None:
         self.path = os.fspath(path)
-        self.data = _contents(self.path)
+        self.padded = _contents(self.path)
+        self.data = self.padded[:-PADDING]
         self.view = memoryview(self.data)  # type: ignore[arg-type]
         head = bytes(self.data[:3])
         if head[:2] in {b"\xff\xfe", b"\xfe\xff"}:
@@ -140,11 +145,13 @@ def _contents(path: str) -> Bytes:
     if not (stat.S_ISREG(mode := os.stat(path).st_mode) or stat.S_ISDIR(mode)):
         raise FormatError("this is not a regular file (a pipe or a device?); copy its contents to a file", path=path)
     with open(path, "rb") as file:
-        data = np.empty(os.fstat(file.fileno()).st_size, dtype=np.uint8)
+        size = os.fstat(file.fileno()).st_size
+        data = np.empty(size + PADDING, dtype=np.uint8)
         n = 0
-        while n < len(data) and (more := file.readinto(memoryview(data)[n:])):  # type: ignore[arg-type]
+        while n < size and (more := file.readinto(memoryview(data)[n:size])):  # type: ignore[arg-type]
             n += more
-    return data[:n]
+    data[n : n + PADDING] = 10
+    return data[: n + PADDING]
 
 
 @kernel
@@ -160,6 +167,21 @@ def skip_gaps(b: Bytes, i: int, end: int) -> int:
         else:
             break
     return i
+
+
+@kernel
+def count_plain_lines(b: Bytes) -> int:
+    """The same as `count_lines` by a loop that becomes vector instructions; -1 if a line begins with a blank."""
+    n = 0
+    blank = 0
+    if len(b) > 0:
+        n += b[0] > 32 and b[0] != 35
+        blank += b[0] <= 32 and b[0] != 10 and b[0] != 13
+    for i in range(1, len(b)):
+        first = (b[i - 1] == 10) | (b[i - 1] == 13)
+        n += first & (b[i] > 32) & (b[i] != 35)
+        blank += first & (b[i] <= 32) & (b[i] != 10) & (b[i] != 13)
+    return -1 if blank else n
 
 
 @kernel
