@@ -146,6 +146,14 @@ def test_convert_keeps_polygons_and_points(cube: Path, tmp_path: Path) -> None:
     assert points.tolist() == points_before.tolist()
 
 
+def test_convert_keeps_attributes(tmp_path: Path) -> None:
+    (tmp_path / "in.off").write_text("COFF 3 1 0\n0 0 0 1 0 0 1\n1 0 0 0 1 0 1\n0 1 0 0 0 1 1\n3 0 1 2 0.5 0.5 0.5\n")
+    assert run("convert", tmp_path / "in.off", tmp_path / "out.off").exit_code == 0
+    before, after = (hm.io.read_data(tmp_path / name) for name in ("in.off", "out.off"))
+    assert after.vertex["color"].tolist() == before.vertex["color"].tolist()
+    assert after.face["color"].tolist() == before.face["color"].tolist()
+
+
 def test_convert_writes_what_cannot_be_held(book: Path, tmp_path: Path) -> None:
     assert run("convert", book, tmp_path / "book.obj").exit_code == 0
     assert hm.io.read(tmp_path / "book.obj")[0].tolist() == [[0, 1, 2], [0, 1, 3], [0, 1, 4]]
