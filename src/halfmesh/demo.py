@@ -15,7 +15,6 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 import numpy as np
-from numpy.typing import NDArray
 
 import halfmesh as hm
 from halfmesh import _jit
@@ -24,7 +23,6 @@ from halfmesh.viewer import FIGURE_FACES, FIGURE_POINTS, save_structure_diagram
 __all__ = ["Section", "draw_structure", "explore", "make_example", "smooth"]
 
 R = TypeVar("R")
-Floats = NDArray[np.float64]
 
 LEVELS = {"large": 7, "small": 4}  # of the icosphere: 327,680 and 5,120 triangles
 MOST_INTERPRETED = 200_000  # vertices for plain Python: half a second or so
@@ -78,6 +76,19 @@ def make_example(folder: Path, size: str = "large") -> tuple[Path, Section]:
         Made if it isn't there.
     size : {"large", "small"}
         327,680 or 5,120 triangles.
+
+    Returns
+    -------
+    path : Path
+    section : Section
+        What there is to say about it.
+
+    Examples
+    --------
+    >>> import pathlib, tempfile
+    >>> path, section = make_example(pathlib.Path(tempfile.mkdtemp()), "small")
+    >>> hm.load(path)
+    <Mesh: 2562 vertices, 7680 edges, 5120 faces, closed>
     """
     folder.mkdir(parents=True, exist_ok=True)
     path = folder / "sphere.off"
@@ -102,6 +113,14 @@ def explore(path: Path) -> Iterator[Section]:
         The file can't be read.
     InvalidMeshError
         Its faces can't be held.
+
+    Examples
+    --------
+    >>> import pathlib, tempfile
+    >>> path = pathlib.Path(tempfile.mkdtemp()) / "cube.off"
+    >>> hm.save(hm.shapes.cube(), path)
+    >>> [section.title for section in explore(path)]
+    ['From cube.off to a mesh that answers', 'Questions', 'A loop of your own']
     """
     mesh, section = _build(path)
     yield section
@@ -174,10 +193,8 @@ def _loop(mesh: hm.Mesh) -> Section:
     row("smooth(mesh, points, out)  # first call", first, len(points))
     fast = row("smooth(mesh, points, out)  # again", again, len(points))
     if len(points):
-        difference = float(np.abs(compiled[:n_plain] - plain).max())
-        same = (
-            "equal to the last bit" if np.array_equal(compiled[:n_plain], plain) else f"equal within {difference:.1e}"
-        )
+        equal = np.array_equal(compiled[:n_plain], plain, equal_nan=True)
+        same = "equal to the last bit" if equal else f"equal within {np.nanmax(np.abs(compiled[:n_plain] - plain)):.1e}"
         section.remarks.append(f"{slow / fast:,.0f} x as fast as plain Python, on one thread, and {same}.")
     if mesh.n_edges and bool(np.isfinite(points).all()):
         section.remarks.append(_smoothed(mesh))
@@ -199,7 +216,14 @@ def _smoothed(mesh: hm.Mesh) -> str:
 
 
 def draw_structure(folder: Path) -> Section:
-    """Draw the structure of a small mesh of polygons to ``folder/structure.svg``, and ask that mesh."""
+    """Draw the structure of a small mesh of polygons to ``folder/structure.svg``, and ask that mesh.
+
+    Examples
+    --------
+    >>> import pathlib, tempfile
+    >>> draw_structure(pathlib.Path(tempfile.mkdtemp())).rows[0]
+    ('a halfedge', 'h = mesh.find_halfedge(0, 1)', 'Halfedge(0)')
+    """
     folder.mkdir(parents=True, exist_ok=True)
     mesh_path, picture = folder / "patch.off", folder / "structure.svg"
     hm.save(hm.Mesh(FIGURE_FACES, FIGURE_POINTS), mesh_path)

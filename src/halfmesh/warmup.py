@@ -12,7 +12,7 @@ import pkgutil
 import sys
 import tempfile
 import types
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Generator, Iterator
 from pathlib import Path
 from typing import Any
 
@@ -27,7 +27,7 @@ __all__ = ["jobs", "kernels_of", "n_compiled_here", "n_from_cache", "never_compi
 Job = tuple[str, Callable[[Path], object]]
 
 
-def warm_up() -> Iterator[tuple[str, int, int]]:
+def warm_up() -> Generator[tuple[str, int, int], None, None]:
     """Compile all kernels of the library, or read them from the cache.
 
     Yields
@@ -37,7 +37,15 @@ def warm_up() -> Iterator[tuple[str, int, int]]:
 
     Notes
     -----
-    Safe to run again: what is in the cache is only read. Half a minute at most where nothing is.
+    Safe to run again: what is in the cache is only read. Some 15 seconds where nothing is.
+
+    Examples
+    --------
+    >>> from halfmesh.warmup import jobs, warm_up
+    >>> steps = warm_up()
+    >>> next(steps) == ("building triangles", 0, len(jobs()))
+    True
+    >>> steps.close()
     """
     todo = jobs()
     with _jit.compiling_always(), tempfile.TemporaryDirectory() as folder:
@@ -76,7 +84,7 @@ def _polygons() -> hm.Mesh:
 def _unusual() -> None:
     hm.Mesh([[0, 1, 2], [0, 3, 4]])  # two fans at a vertex
     hm.Mesh([[0, 1, 2], [0, 2, 1]], twins=[5, 4, 3, 2, 1, 0])
-    hm.Mesh([[0, 1, 2, 3], [1, 4, 2]], twins=(np.array([-1, 6, -1, -1, -1, -1, 1])))
+    hm.Mesh([[0, 1, 2, 3], [1, 4, 2]], twins=np.array([-1, 6, -1, -1, -1, -1, 1]))
     hm.Mesh([[0, 1, 2]], edges=[[2, 3]], n_vertices=4)
 
 

@@ -35,6 +35,8 @@ def show_tour(files: tuple[Path, ...], folder: Path, size: str) -> bool:
     ):
         refused = _tour(out, files, folder, size)
     _show_end(out, time.perf_counter() - started)
+    if not files:
+        out.print(Text("now with a mesh of yours: halfmesh demo bunny.obj", style="dim"))
     return refused == 0
 
 
