@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import itertools
 
 import numpy as np
@@ -10,6 +11,7 @@ from hypothesis import event, given
 from hypothesis import strategies as st
 
 import halfmesh as hm
+from halfmesh.core import matching
 from halfmesh.core.topology import COLUMNS
 from reference import Reference, Refused
 from soups import meshes_or_not, pieces
@@ -77,6 +79,29 @@ def test_random_faces_are_accepted_or_refused_exactly_as_by_the_slow_twin(soup):
         mesh = hm.Mesh(faces, n_vertices=n)
         assert columns(mesh) == twin.columns()
         hm.testing.assert_valid(mesh)
+
+
+@contextlib.contextmanager
+def in_small_pieces():
+    """Cut even the smallest face list into several parts and blocks, as large ones are."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("HALFMESH_NUM_THREADS", "3")
+        patch.setattr(matching, "_PART", 1)
+        patch.setattr(matching, "_BLOCK_BITS", 1)
+        yield
+
+
+@given(soup=meshes_or_not())
+def test_parts_and_blocks_change_nothing(soup):
+    """Large inputs are cut into parts for threads and blocks for the cache: the result is that of the twin still."""
+    faces, n = soup
+    twin, refused = held_or_refused(faces, n)
+    with in_small_pieces():
+        if refused:
+            with pytest.raises(hm.InvalidMeshError):
+                hm.Mesh(faces, n_vertices=n)
+        else:
+            assert columns(hm.Mesh(faces, n_vertices=n)) == twin.columns()
 
 
 def as_set(elements):
