@@ -58,7 +58,7 @@ def corner_angles(mesh: Mesh) -> Floats:
 
 
 # Corners are collected in a buffer that stays in the cache; when it is full, the compiler can take several angles at a
-# time, six times as fast as one by one.
+# time, several times as fast as one by one.
 _BUFFER = 512
 
 FULL_TURN = -1e-300  # the sine at the end of a slit, a hair below zero: the face is all around
