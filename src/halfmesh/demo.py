@@ -212,7 +212,7 @@ def _smoothed(mesh: hm.Mesh) -> str:
     if distances[-1] == 0.0:
         return "The points lie there already."
     closer = distances[0] / distances[-1]
-    return f"{PASSES} passes later, the vertices are {closer:,.3g} x closer to that mean (root mean square)."
+    return f"{PASSES} passes later, the vertices are {closer:,.3g} x closer to that mean (rms)."
 
 
 def draw_structure(folder: Path) -> Section:
