@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 import halfmesh as hm
 from halfmesh._jit import compiling_always
 from halfmesh.core.topology import DELETED, N_DEAD_FACES, N_DEAD_VERTICES
+from halfmesh.geometry._passes import points_of
 
 g = hm.geometry
 ORDER = {"edge_vectors": 1, "edge_lengths": 1, "face_areas": 2, "face_vectors": 2, "area": 2, "volume": 3}
@@ -60,30 +61,46 @@ def test_tiny_and_huge_meshes_measure_alike(measure, scale):
     assert np.allclose(np.asarray(measure(mesh)) / scale**order, expected, rtol=1e-12, atol=1e-13)
 
 
-def test_points_of_another_dtype_order_or_protection_are_taken(measure):
-    mesh = hm.shapes.icosphere(1)
-    expected = measure(mesh)
-    mesh.points = np.asfortranarray(mesh.points)
-    mesh.points.flags.writeable = False
-    assert np.array_equal(measure(mesh), expected)
+def test_kernels_get_points_in_one_form_so_that_they_are_compiled_once():
+    class Odd(hm.Mesh):
+        points = np.asfortranarray(np.arange(9, dtype=">f4").reshape(3, 3))
+
+    Odd.points.flags.writeable = False
+    points = points_of(Odd([[0, 1, 2]]))
+    assert points.tolist() == Odd.points.tolist()
+    assert (points.dtype, points.flags.c_contiguous, points.flags.writeable) == (np.float64, True, True)
+    assert points_of(hm.shapes.cube()).base is not None  # no copy where none is needed
 
 
-def test_rows_are_slots_and_those_of_the_deleted_are_zero(measure):
+def two_triangles():
+    return hm.Mesh([[0, 1, 2], [3, 4, 5]], np.random.default_rng(0).normal(size=(6, 3)))
+
+
+def with_one_triangle_deleted():
     """The second of two triangles is marked as deleted, by hand."""
-    mesh = hm.Mesh([[0, 1, 2], [3, 4, 5]], np.random.default_rng(0).normal(size=(6, 3)))
-    whole = np.asarray(measure(mesh))
+    mesh = two_triangles()
     a = mesh.topology.__arrays__()
     a.next[6:] = a.prev[6:] = DELETED
     a.face[6:] = -1
     a.vertex_halfedge[3:] = a.face_halfedge[1] = DELETED
     a.counts[N_DEAD_VERTICES], a.counts[N_DEAD_FACES] = 3, 1
-    half = np.asarray(measure(mesh))
+    return mesh
+
+
+def test_rows_are_slots_and_those_of_the_deleted_are_zero(measure):
+    mesh = with_one_triangle_deleted()
+    whole, half = np.asarray(measure(two_triangles())), np.asarray(measure(mesh))
     if measure is g.area:
         assert half == g.face_areas(mesh)[0] > 0
     else:
         living = len(whole) // 2
         assert np.array_equal(half[:living], whole[:living])
         assert not half[living:].any()
+
+
+def test_the_deleted_are_not_in_the_bounding_box():
+    mesh = with_one_triangle_deleted()
+    assert g.bounding_box(mesh).tolist() == [mesh.points[:3].min(axis=0).tolist(), mesh.points[:3].max(axis=0).tolist()]
 
 
 def rotation_about(axis, angle):

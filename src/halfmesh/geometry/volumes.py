@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from halfmesh._jit import kernel
+from halfmesh.core.navigation import halfedge_of_face
 from halfmesh.errors import PreconditionError
-from halfmesh.geometry.areas import face_vectors
+from halfmesh.geometry._passes import points_of, run
+from halfmesh.geometry._vectors import dot
 from halfmesh.geometry.boxes import bounding_box
-from halfmesh.geometry.centers import face_barycenters
+from halfmesh.geometry.kernels import face_barycenter, face_vector
 
 if TYPE_CHECKING:
     from halfmesh.mesh.mesh import Mesh
@@ -58,8 +61,10 @@ def volume(mesh: Mesh) -> float:
         _refuse_open(mesh)
     if mesh.n_faces == 0:
         return 0.0
-    middle = bounding_box(mesh).mean(axis=0)
-    return float(((face_barycenters(mesh) - middle) * face_vectors(mesh)).sum()) / 3
+    t = mesh.topology
+    cones = np.empty(len(t.face_halfedge))
+    run(_cones, len(cones), t, points_of(mesh) - bounding_box(mesh).mean(axis=0), cones)
+    return float(cones.sum()) / 3
 
 
 def _refuse_open(mesh: Mesh) -> None:
@@ -70,3 +75,12 @@ def _refuse_open(mesh: Mesh) -> None:
             f"a closed surface is needed, but {len(open_edges)} edges have a face on one side only, "
             f"e.g. edge {open_edges[0]}"
         )
+
+
+@kernel
+def _cones(t: Any, points: Any, cones: Any, low: int, high: int) -> None:
+    """Three times the signed volumes between the origin and the faces low..high."""
+    for f in range(low, high):
+        cones[f] = 0.0
+        if halfedge_of_face(t, f) >= 0:
+            cones[f] = dot(face_barycenter(t, points, f), face_vector(t, points, f))
