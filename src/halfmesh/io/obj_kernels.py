@@ -20,9 +20,9 @@ from __future__ import annotations
 from typing import Any
 
 from halfmesh._jit import kernel
-from halfmesh.io.numbers import INTEGER, UNDECIDED, is_blank, is_end, number, up_to_eight
+from halfmesh.io.numbers import INTEGER, UNDECIDED, is_blank, is_end, leading_digits, mantissa, number, scaled
 
-__all__ = ["index", "keyword", "read_lines", "resolved", "survey"]
+__all__ = ["index", "line_kind", "read_lines", "resolved", "survey"]
 
 POSITION, VERTEX, TEXTURE, NORMAL, FACE, EVENT, CORNER, EDGE, N_POINTS = 0, 1, 2, 3, 4, 5, 6, 7, 8
 N_OPEN, CODE, WHERE, SEEN, N_TEXTURE = 9, 10, 11, 12, 13
@@ -47,39 +47,37 @@ HAS_TEXTURE, HAS_NORMALS, DOTTED = 1, 2, 4
 POINTS, EXTRAS, TEXTURES, NORMALS = 0, 1, 2, 3  # the arrays that `undecided` refers to
 MOST_NUMBERS = 7  # of a vertex: x y z and r g b a
 TOO_LARGE = 10**9
+HASH = 35
 
 
 @kernel
-def keyword(b: Any, i: int, end: int) -> tuple[int, int]:
-    """The kind of the line that begins at `i`, and where its arguments are."""
-    while i < end and is_blank(b[i]):
-        i += 1
-    if i >= end or is_end(b[i]):
-        return EMPTY, i
-    c = b[i]
-    d = b[i + 1] if i + 1 < end else 10
+def line_kind(c: int, d: int, e: int) -> int:
+    """The kind of a line that begins with these three bytes. No array goes in: see `leading_digits`."""
+    if is_end(c):
+        return EMPTY
     if is_end(d):
         if c == 118:
-            return V, i + 1
+            return V
         if c == 102:
-            return F, i + 1
+            return F
         if c == 108:
-            return L, i + 1
-        if c == 112:
-            return P, i + 1
-    elif c == 118 and d == 116 and (i + 2 >= end or is_end(b[i + 2])):
-        return VT, i + 2
-    elif c == 118 and d == 110 and (i + 2 >= end or is_end(b[i + 2])):
-        return VN, i + 2
-    return OTHER, i
+            return L
+        return P if c == 112 else OTHER
+    if c == 118 and is_end(e):
+        if d == 116:
+            return VT
+        if d == 110:
+            return VN
+    return OTHER
 
 
 @kernel
 def survey(b: Any, i: int, end: int, counts: Any) -> None:
     """Count the lines of each kind."""
     while i < end:
-        kind, i = keyword(b, i, end)
-        counts[kind] += 1
+        while is_blank(b[i]):
+            i += 1
+        counts[line_kind(b[i], b[i + 1], b[i + 2])] += 1
         while i < end and b[i] != 10 and b[i] != 13:
             i += 1
         i += 1
@@ -87,16 +85,18 @@ def survey(b: Any, i: int, end: int, counts: Any) -> None:
 
 @kernel
 def index(b: Any, i: int) -> tuple[int, int, bool]:
-    """Read an integer that may end before a slash: its value, where it ends, whether there is one."""
+    """Read any integer, which may end before a slash: its value, where it ends, whether there is one."""
     negative = b[i] == 45
     if negative or b[i] == 43:
         i += 1
     start = i
-    value, n = up_to_eight(b, i, 0)
-    i += n
-    while n == 8:
-        value, n = up_to_eight(b, i, min(value, TOO_LARGE))
-        i += n
+    value = 0
+    d = b[i] - 48
+    while 0 <= d <= 9:
+        if value < TOO_LARGE:
+            value = value * 10 + d
+        i += 1
+        d = b[i] - 48
     return (-value if negative else value), i, i > start
 
 
@@ -151,7 +151,15 @@ def read_lines(
             code = AGAIN
             break
         where = i
-        kind, i = keyword(b, i, end)
+        while is_blank(b[i]):
+            i += 1
+        kind = line_kind(b[i], b[i + 1], b[i + 2])
+        if kind == OTHER:
+            events[2 * event] = face
+            events[2 * event + 1] = i
+            event += 1
+        elif kind != EMPTY:
+            i += 2 if VT <= kind <= VN else 1
         if V <= kind <= VN:
             least = 3
             most = 3
@@ -169,7 +177,15 @@ def read_lines(
                     code = MANY_NUMBERS
                     break
                 start = i
-                value, i, form = number(b, i, end, powers)
+                negative = b[i] == 45
+                w, e, after, form = mantissa(b, i + negative)
+                value, sure = scaled(w, e, False, powers)
+                stop = b[after]
+                if sure and is_end(stop) and stop != HASH and after > i + negative:
+                    value = -value if negative else value
+                    i = after
+                else:
+                    value, i, form = number(b, i, end, powers)
                 if kind == V:
                     if n < 3:
                         place = 3 * vertex + n
@@ -223,7 +239,12 @@ def read_lines(
                 start = i
                 t = 0
                 vn = 0
-                v, i, good = index(b, i)
+                v, after = leading_digits(b, i)
+                good = after > i and after < i + 8
+                if good:
+                    i = after
+                else:
+                    v, i, good = index(b, i)
                 if good and i < end and b[i] == 47:
                     i += 1
                     if i < end and b[i] != 47 and not is_end(b[i]):
@@ -289,10 +310,6 @@ def read_lines(
                     break
                 degrees[face] = n
                 face += 1
-        elif kind == OTHER:
-            events[2 * event] = face
-            events[2 * event + 1] = i
-            event += 1
         while i < end and b[i] != 10 and b[i] != 13:
             i += 1
         i += 1

@@ -19,7 +19,7 @@ from __future__ import annotations
 from typing import Any
 
 from halfmesh._jit import kernel
-from halfmesh.io.numbers import INTEGER, UNDECIDED, is_blank, is_end, number, up_to_eight
+from halfmesh.io.numbers import INTEGER, UNDECIDED, is_blank, is_end, leading_digits, mantissa, number, scaled
 from halfmesh.io.source import skip_gaps
 
 __all__ = ["read_faces", "read_vertices", "whole"]
@@ -31,21 +31,25 @@ DONE, AGAIN, FILE_ENDS, LINE_ENDS, LINE_GOES_ON, NOT_WHOLE, NO_SUCH_VERTEX, SMAL
 
 MOST_EXTRAS = 4
 LAST_BIT = 60
+HASH = 35
 TOO_LARGE = 10**9
 
 
 @kernel
 def whole(b: Any, i: int, end: int) -> tuple[int, int, bool]:
-    """Read the integer at ``b[i]``: its value, where it ends, and whether it is one."""
+    """Read any integer at ``b[i]``: its value, where it ends, and whether it is one."""
     negative = b[i] == 45
     if negative or b[i] == 43:
         i += 1
     start = i
-    value, n = up_to_eight(b, i, 0)
-    i += n
-    while n == 8:
-        value, n = up_to_eight(b, i, min(value, TOO_LARGE))
-        i += n
+    value = 0
+    while i < end:
+        d = b[i] - 48
+        if d < 0 or d > 9:
+            break
+        if value < TOO_LARGE:
+            value = value * 10 + d
+        i += 1
     good = i > start and (i >= end or is_end(b[i]))
     return (-value if negative else value), i, good
 
@@ -65,7 +69,10 @@ def read_vertices(
         if n_open + width > len(undecided) // 2:
             code = AGAIN
             break
-        i = skip_gaps(b, i, end)
+        while is_end(b[i]) and b[i] != HASH and i < end:
+            i += 1
+        if b[i] == HASH:
+            i = skip_gaps(b, i, end)
         where = i
         if i >= end:
             code = FILE_ENDS
@@ -84,7 +91,15 @@ def read_vertices(
                     code = FILE_ENDS
                     break
             start = i
-            value, i, kind = number(b, i, end, powers)
+            negative = b[i] == 45
+            w, e, after, kind = mantissa(b, i + negative)
+            value, sure = scaled(w, e, False, powers)
+            stop = b[after]
+            if sure and is_end(stop) and stop != HASH and after > i + negative:
+                value = -value if negative else value
+                i = after
+            else:
+                value, i, kind = number(b, i, end, powers)
             values[place + c] = value
             if kind != INTEGER:
                 seen |= 1 << min(c, LAST_BIT)
@@ -137,19 +152,17 @@ def read_faces(
         if n_open + MOST_EXTRAS > len(undecided) // 2:
             code = AGAIN
             break
-        i = skip_gaps(b, i, end)
+        while is_end(b[i]) and b[i] != HASH and i < end:
+            i += 1
+        if b[i] == HASH:
+            i = skip_gaps(b, i, end)
         where = i
         if i >= end:
             code = FILE_ENDS
             break
-        degree, i, good = whole(b, i, end)
-        if not good:
-            code = NOT_WHOLE
-            break
-        if degree < 3:
-            code = SMALL_FACE
-            break
-        for _ in range(degree):
+        degree = 1
+        n = 0
+        while n <= degree:  # the degree is read like an index: one place to call `whole`, so that it is inlined
             while i < end and is_blank(b[i]):
                 i += 1
             if i < end and is_end(b[i]) and not by_lines:
@@ -161,17 +174,29 @@ def read_faces(
                 code = LINE_ENDS
                 break
             start = i
-            v, i, good = whole(b, i, end)
+            v, after = leading_digits(b, i)
+            good = after > i and is_end(b[after])
+            if good:
+                i = after
+            else:
+                v, i, good = whole(b, i, end)
             if not good:
                 code = NOT_WHOLE
                 where = start
                 break
-            if v < 0 or v >= n_vertices:
+            if n == 0:
+                degree = v
+                if v < 3:
+                    code = SMALL_FACE
+                    break
+            elif v < 0 or v >= n_vertices:
                 code = NO_SUCH_VERTEX
                 where = start
                 break
-            corners[corner] = v
-            corner += 1
+            else:
+                corners[corner] = v
+                corner += 1
+            n += 1
         if code != DONE:
             break
         degrees[face] = degree
