@@ -90,7 +90,7 @@ def _unusual() -> None:
 
 def _refused() -> None:
     crowded, disagreeing = [[0, 1, 2], [1, 0, 3], [0, 1, 4]], [[0, 1, 2], [0, 1, 3]]
-    for faces in (crowded, disagreeing, hm.shapes.moebius_faces()[0]):
+    for faces in (crowded, disagreeing, hm.shapes.moebius_faces()):
         with contextlib.suppress(hm.InvalidMeshError):
             hm.Mesh(faces)
 

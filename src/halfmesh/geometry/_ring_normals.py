@@ -1,4 +1,4 @@
-"""Vertex normals of triangle meshes, with nothing stored per face or per corner.
+"""Angle-weighted vertex normals of triangle meshes, with nothing stored per face or per corner.
 
 In a triangle, the two edges of a corner give the normal, the area and the angle, and neighboring corners share an edge:
 one walk around each vertex does everything. That computes each face normal three times, and still takes half as long as
@@ -20,30 +20,13 @@ from halfmesh.geometry._passes import Floats
 from halfmesh.geometry._vectors import Vector, cross, difference, dot, plus, point, unit
 from halfmesh.geometry.kernels import angle_from
 
-__all__ = ["buffers", "normals_by_angle", "normals_by_area"]
+__all__ = ["buffers", "normals_by_angle"]
 
 
 @kernel
 def _first_spoke(t: Any, points: Any, v: int) -> Vector:
     """The edge that the ring of `v` begins with."""
     return difference(point(points, target_of(t, ccw_of(t, halfedge_of_vertex(t, v)))), point(points, v))
-
-
-@kernel
-def normals_by_area(t: Any, points: Any, normals: Any, low: int, high: int) -> None:
-    """Write the unit normals of the vertices low..high; all faces are triangles."""
-    for v in range(low, high):
-        twice = (0.0, 0.0, 0.0)
-        if halfedge_of_vertex(t, v) >= 0:
-            has_gap = is_exterior(t, halfedge_of_vertex(t, v))
-            middle = point(points, v)
-            b = _first_spoke(t, points, v)
-            for h in outgoing(t, v):
-                a = b
-                b = difference(point(points, origin_of(t, prev_of(t, h))), middle)
-                if not has_gap or face_of(t, h) >= 0:
-                    twice = plus(twice, cross(a, b))
-        normals[v, 0], normals[v, 1], normals[v, 2] = unit(twice)
 
 
 # Corners are collected in a buffer that stays in the cache: when it is full, the compiler can take several square roots
