@@ -112,7 +112,10 @@ class HalfMesh(Peer):
 
     def normals(self, surface: Surface) -> Ways:
         mesh = hm.Mesh(surface.faces, surface.points)
-        return {"geometry.vertex_normals": Way(lambda: hm.geometry.vertex_normals(mesh))}
+        return {
+            "vertex_normals, by area": Way(lambda: hm.geometry.vertex_normals(mesh, weights="area"), "area weighted"),
+            "vertex_normals": Way(lambda: hm.geometry.vertex_normals(mesh), "angle weighted"),
+        }
 
 
 @hm.kernel
