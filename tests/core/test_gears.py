@@ -131,6 +131,14 @@ def walked(twin, h):
     return path
 
 
+@pytest.mark.parametrize(("left", "right"), [(0, -1), (-1, 0), (-1, -1), (0, 0)])
+def test_an_edge_is_on_the_boundary_whichever_side_is_open(left, right):
+    """Also where 2e is the open side, as operators may leave it."""
+    mesh = ZOO["triangle"].mesh()
+    mesh.topology.__arrays__().face[:2] = left, right
+    assert bool(hm.is_boundary_edge(mesh, 0)) == mesh.edges[0].is_boundary == (-1 in (left, right))
+
+
 def test_the_slow_twin_knows_every_word():
     assert set(WORDS) == set(RULES) | set(CIRCULATORS)
 
@@ -279,10 +287,9 @@ def with_expressions_as_arguments(t, out):
 @kernel
 def with_a_shadowed_name(t, out):
     for v in range(hm.vertex_slots(t)):
-        total = 0
-        for loop in range(3):  # noqa: F402 - that is the point: here it is no circulator
-            total += loop
-        out[v] += total
+        loop = range  # from here on it is no circulator
+        for i in loop(1, 3):
+            out[v] += i
 
 
 def _closing_over(circulator, weight):

@@ -178,6 +178,18 @@ def test_points_of_any_real_dtype_become_float64(dtype):
     assert mesh.points.tolist() == points.tolist()
 
 
+@pytest.mark.parametrize("wrapping", [2**32, 2**32 + 2, -(2**32), 2**63 - 1, -(2**63), 2**31])
+def test_no_index_wraps_around_to_another_one(wrapping):
+    faces = FACES.astype(np.int64)
+    faces[1, 2] = wrapping
+    with pytest.raises(hm.InvalidMeshError) as caught:
+        hm.Mesh(faces, n_vertices=5)
+    assert (caught.value.reason, caught.value.elements["corners"].tolist()) == ("index_out_of_range", [5])
+    with pytest.raises(hm.InvalidMeshError) as caught:
+        hm.Mesh(FACES, n_vertices=5, edges=[[0, 4], [0, wrapping]])
+    assert (caught.value.reason, caught.value.elements["rows"].tolist()) == ("index_out_of_range", [1])
+
+
 def test_plane_points_get_z_zero():
     assert hm.Mesh([[0, 1, 2]], [(1, 2), (3, 4), (5, 6)]).points.tolist() == [[1, 2, 0], [3, 4, 0], [5, 6, 0]]
 

@@ -187,6 +187,17 @@ def test_check_and_handles_end_on_any_garbage(specimen, seed, share):
         with_errors(lambda u=u: mesh.find_halfedge(u, 0))
 
 
+@given(st.sampled_from([s for s in ZOO.values() if s.faces]), st.integers(0, 2**32 - 1))
+def test_orbit_laws_end_even_by_themselves(specimen, seed):
+    """Rings and loops that run into a circle which does not hold their start."""
+    mesh = specimen.mesh()
+    arrays, rng = mesh.topology.__arrays__(), np.random.default_rng(seed)
+    for column in (arrays.next, arrays.prev):
+        column[:] = rng.integers(0, len(mesh.topology.next), len(column))
+    assert len(invariants.one_ring_holds_all_of_a_vertex(mesh.topology)) <= mesh.n_vertices
+    assert len(invariants.one_loop_holds_all_of_a_face(mesh.topology)) <= mesh.n_faces
+
+
 def with_errors(question):
     with contextlib.suppress(hm.HalfmeshError, IndexError):
         question()
