@@ -17,7 +17,20 @@ from typing import Any
 from halfmesh._jit import kernel
 from halfmesh.io.numbers import REACH, times
 
-__all__ = ["MOST_BYTES", "UNWRITTEN", "number_to_text", "write_integer", "write_number"]
+__all__ = [
+    "MOST_BYTES",
+    "UNWRITTEN",
+    "few_digits",
+    "n_digits",
+    "number_to_text",
+    "put_eight",
+    "quotient",
+    "scale_of",
+    "shortest_digits",
+    "ten_to",
+    "write_integer",
+    "write_number",
+]
 
 UNWRITTEN = -1
 MOST_BYTES = 26  # -2.2250738585072014e-308 has 24, and two for a ".0"
@@ -50,11 +63,7 @@ def write_integer(x: int, out: Any, at: int) -> int:
         out[at] = 45
         at += 1
         x = -x
-    n = 1
-    limit = 10
-    while n < 18 and x >= limit:
-        n += 1
-        limit *= 10
+    n = n_digits(x)
     write_digits(x, n, out, at)
     return at + n
 
@@ -84,14 +93,14 @@ def write_number(x: float, dotted: bool, out: Any, at: int, powers: Any) -> int:
         return at
     if not (SMALLEST < x < LARGEST):
         return UNWRITTEN
-    digits, e = shortest_digits(x, powers)
+    mantissa, binary = math.frexp(x)
+    e = scale_of(binary)
+    if x * powers[2 * (REACH + e)] >= TOP:
+        e -= 1
+    digits, e = shortest_digits(x, mantissa, e, powers[2 * (REACH + e)], powers[2 * (REACH + e) + 1])
     if digits < 0:
         return UNWRITTEN
-    n = 1
-    limit = 10
-    while n < 18 and digits >= limit:
-        n += 1
-        limit *= 10
+    n = n_digits(digits)
     point = n + e  # digits before the decimal point
     if point > 16 or point < -3:
         return write_scientific(digits, n, point - 1, out, at)
@@ -140,44 +149,120 @@ def write_scientific(digits: int, n: int, e: int, out: Any, at: int) -> int:
 
 
 @kernel
-def shortest_digits(x: float, powers: Any) -> tuple[int, int]:
-    """Digits and exponent of the shortest decimal for an ordinary positive `x`; digits -1: too close to tell."""
-    mantissa, binary = math.frexp(x)
-    e = 16 - math.floor((binary - 1) * LOG10_OF_2)
-    high, rest = times(x, 0.0, powers[2 * (REACH + e)], powers[2 * (REACH + e) + 1])
-    if high >= TOP:
-        e -= 1
-        high, rest = times(x, 0.0, powers[2 * (REACH + e)], powers[2 * (REACH + e) + 1])
+def scale_of(binary: int) -> int:
+    """The power of ten that brings ``mantissa * 2**binary`` to 17 digits before the point, or to one more."""
+    return 16 - math.floor((binary - 1) * LOG10_OF_2)
+
+
+@kernel
+def shortest_digits(x: float, mantissa: float, e: int, power: float, power_rest: float) -> tuple[int, int]:
+    """Digits and exponent of the shortest decimal for an ordinary positive `x`; digits -1: too close to tell.
+
+    ``power + power_rest`` is ``10**e``; it brings `x` to 17 digits before the point; `mantissa` is that of ``frexp``.
+    No array goes in, so that no references are counted.
+    """
+    high, rest = times(x, 0.0, power, power_rest)
     below = math.floor(rest)
     whole = int(high) + int(below)
     fraction = rest - below
-    half = x / mantissa * HALF_UNIT * powers[2 * (REACH + e)]
+    half = x / mantissa * HALF_UNIT * power
     if mantissa == 0.5:  # the next float64 below is nearer than the next above
         half *= 0.5
-    last = whole % 100
+    hundreds = quotient(whole, 100, 0.01)
+    last = whole - 100 * hundreds
     down = last + fraction
     up = 100.0 - down
     nearest = min(down, up)
     if nearest < half - TOLERANCE:
-        digits = (whole - last + (100 if up < down else 0)) // 100
+        digits = hundreds + (up < down)
         e -= 2
-        while digits % 10000 == 0:
-            digits //= 10000
+        fewer = int(digits * 1e-4 + 0.5)
+        while fewer * 10000 == digits:
+            digits = fewer
             e -= 4
-        while digits % 10 == 0:
-            digits //= 10
+            fewer = int(digits * 1e-4 + 0.5)
+        fewer = int(digits * 0.1 + 0.5)
+        while fewer * 10 == digits:
+            digits = fewer
             e -= 1
+            fewer = int(digits * 0.1 + 0.5)
         return digits, -e
     if nearest < half + TOLERANCE or mantissa == 0.5:
         return -1, 0
-    last = whole % 10
+    tens = quotient(last, 10, 0.1)
+    last -= 10 * tens
     down = last + fraction
     up = 10.0 - down
     nearest = min(down, up)
     if nearest < half + TOLERANCE:
         if nearest > half - TOLERANCE or abs(down - up) < TOLERANCE:
             return -1, 0
-        return (whole - last + (10 if up < down else 0)) // 10, 1 - e
+        return 10 * hundreds + tens + (up < down), 1 - e
     if abs(fraction - 0.5) < TOLERANCE:
         return -1, 0
     return whole + (1 if fraction > 0.5 else 0), -e
+
+
+@kernel
+def n_digits(x: int) -> int:
+    """How many decimal digits `x` has, which is not negative and below 10**18."""
+    n = 1
+    limit = 10
+    while n < 18 and x >= limit:
+        n += 1
+        limit *= 10
+    return n
+
+
+# -- without loops and calls, for the hot path: see `numbers.leading_digits` ----------------------------------------
+
+
+@kernel
+def few_digits(x: int) -> int:
+    """How many decimal digits `x` has, which is not negative and below 10**8; without a branch."""
+    few = 1 + (x >= 10) + (x >= 100) + (x >= 1000) + (x >= 10000)
+    return few + (x >= 100000) + (x >= 1000000) + (x >= 10000000)
+
+
+@kernel
+def ten_to(k: int) -> int:
+    """``10**k`` for k from 0 to 17; without a branch."""
+    small = (1 + 9 * (k & 1)) * (1 + 99 * ((k >> 1) & 1)) * (1 + 9999 * ((k >> 2) & 1))
+    return small * (1 + 99999999 * ((k >> 3) & 1)) * (1 + 9999999999999999 * ((k >> 4) & 1))
+
+
+@kernel
+def put_eight(out: Any, at: int, x: int) -> None:
+    """Write all eight digits of `x` below 10**8: the caller shifts what it wants to the left and overwrites the rest.
+
+    Divisions by constants are a multiplication and a shift, exact for numbers so small; Numba's own take three times
+    as long, as they round towards minus infinity.
+    """
+    high = (x * 109951163) >> 40
+    low = x - 10000 * high
+    a = (high * 5243) >> 19
+    b = high - 100 * a
+    c = (low * 5243) >> 19
+    d = low - 100 * c
+    first = (a * 103) >> 10
+    out[at] = 48 + first
+    out[at + 1] = 48 + a - 10 * first
+    first = (b * 103) >> 10
+    out[at + 2] = 48 + first
+    out[at + 3] = 48 + b - 10 * first
+    first = (c * 103) >> 10
+    out[at + 4] = 48 + first
+    out[at + 5] = 48 + c - 10 * first
+    first = (d * 103) >> 10
+    out[at + 6] = 48 + first
+    out[at + 7] = 48 + d - 10 * first
+
+
+@kernel
+def quotient(x: int, unit: int, inverse: float) -> int:
+    """``x // unit`` for x from 0 to 10**17, by way of float64 and put right."""
+    q = int(x * inverse)
+    rest = x - q * unit
+    if rest < 0:
+        return q - 1
+    return q + 1 if rest >= unit else q

@@ -14,8 +14,22 @@ import numpy as np
 from numpy.typing import NDArray
 
 from halfmesh._jit import kernel, n_threads, parallel
-from halfmesh.io.numbers import powers_of_ten
-from halfmesh.io.shortest import MOST_BYTES, number_to_text, write_integer, write_number
+from halfmesh.io.numbers import REACH, powers_of_ten
+from halfmesh.io.shortest import (
+    MOST_BYTES,
+    TOP,
+    UNWRITTEN,
+    few_digits,
+    n_digits,
+    number_to_text,
+    put_eight,
+    quotient,
+    scale_of,
+    shortest_digits,
+    ten_to,
+    write_integer,
+    write_number,
+)
 
 __all__ = ["Corners", "Table", "face_text", "row_text"]
 
@@ -23,6 +37,9 @@ Bytes = NDArray[np.uint8]
 
 _BLOCK = 20_000  # rows a thread writes before they go to the file
 _INDEX_BYTES = 12  # of an index and what is before it
+_SLACK = 32  # bytes that are written beyond what counts
+EIGHT_DIGITS = 100000000
+SMALL = 0.001
 _PER_BYTE = 12  # elements of work for `kernel.at`: interpreted writing takes about 4 us a number
 
 
@@ -66,7 +83,7 @@ def row_text(table: Table) -> Iterator[memoryview]:
     form = (table.width, first, second, table.dotted, table.optional)
 
     def block(begin: int, end: int) -> memoryview:
-        out = np.empty((end - begin) * (table.width * MOST_BYTES + 4), dtype=np.uint8)
+        out = np.empty((end - begin) * (table.width * MOST_BYTES + 4) + _SLACK, dtype=np.uint8)
         return _filled(out, begin, end, lambda *place: run(values, *form, *place, powers), table.text)
 
     yield from _blocks(block, table.n_rows)
@@ -127,7 +144,7 @@ def face_text(corners: Corners, begin: int, end: int) -> Iterator[memoryview]:
     def block(low: int, high: int) -> memoryview:
         low, high = begin + low, begin + high
         n_corners = int(corners.offsets[high] - corners.offsets[low])
-        out = np.empty(n_corners * each + (high - low) * (MOST_BYTES * (n_colors + 1)), dtype=np.uint8)
+        out = np.empty(n_corners * each + (high - low) * (MOST_BYTES * (n_colors + 1)) + _SLACK, dtype=np.uint8)
         return _filled(out, low, high, lambda *place: run(*columns, colors, *form, *place, powers), corners.text)
 
     yield from _blocks(block, end - begin)
@@ -186,9 +203,61 @@ def write_rows(
                 out[at] = 32
                 at += 1
             spaced = False
-            at = write_number(x, c >= dotted, out, at, powers)
-            if at < 0:
+            size = abs(x)
+            floor = int(size) if size < EIGHT_DIGITS else 0
+            if size == floor:
+                if math.copysign(1.0, x) < 0.0:
+                    out[at] = 45
+                    at += 1
+                n = few_digits(floor)
+                put_eight(out, at, floor * ten_to(8 - n))
+                at += n
+                if c >= dotted:
+                    out[at] = 46
+                    out[at + 1] = 48
+                    at += 2
+                continue
+            if not (SMALL <= size < EIGHT_DIGITS):
+                at = write_number(x, c >= dotted, out, at, powers)
+                if at < 0:
+                    break
+                continue
+            mantissa, binary = math.frexp(size)
+            e = scale_of(binary)
+            e -= size * powers[2 * (REACH + e)] >= TOP
+            digits, e = shortest_digits(size, mantissa, e, powers[2 * (REACH + e)], powers[2 * (REACH + e) + 1])
+            if digits < 0:
+                at = UNWRITTEN
                 break
+            if x < 0.0:
+                out[at] = 45
+                at += 1
+            if floor > 0:
+                n = few_digits(floor)
+                put_eight(out, at, floor * ten_to(8 - n))
+                at += n
+                out[at] = 46
+                at += 1
+                digits = (digits - floor * ten_to(-e)) * ten_to(16 + e)
+                high = quotient(digits, EIGHT_DIGITS, 1e-8)
+                put_eight(out, at, high)
+                put_eight(out, at + 8, digits - high * EIGHT_DIGITS)
+                at -= e
+            else:
+                n = n_digits(digits)
+                out[at] = 48
+                out[at + 1] = 46
+                out[at + 2] = 48
+                out[at + 3] = 48
+                at += 2 - (n + e)
+                digits *= ten_to(17 - n)
+                high = quotient(digits, 10 * EIGHT_DIGITS, 1e-9)
+                digits -= high * 10 * EIGHT_DIGITS
+                low = quotient(digits, 10, 0.1)
+                put_eight(out, at, high)
+                put_eight(out, at + 8, low)
+                out[at + 16] = 48 + digits - 10 * low
+                at += n
         if at < 0:
             at = begin
             break
@@ -224,10 +293,23 @@ def write_faces(
             out[at] = prefix
             at += 1
         else:
-            at = write_integer(offsets[face + 1] - offsets[face], out, at)
+            x = offsets[face + 1] - offsets[face]
+            n = few_digits(x)
+            if x < EIGHT_DIGITS:
+                put_eight(out, at, x * ten_to(8 - n))
+                at += n
+            else:
+                at = write_integer(x, out, at)
         for c in range(offsets[face], offsets[face + 1]):
             out[at] = 32
-            at = write_integer(vertices[c] + base, out, at + 1)
+            at += 1
+            x = vertices[c] + base
+            n = few_digits(x)
+            if x < EIGHT_DIGITS:
+                put_eight(out, at, x * ten_to(8 - n))
+                at += n
+            else:
+                at = write_integer(x, out, at)
             textured = len(textures) > 0 and textures[c] >= 0
             if textured:
                 out[at] = 47
@@ -239,10 +321,10 @@ def write_faces(
                 out[at] = 47
                 at = write_integer(normals[c] + base, out, at + 1)
         for j in range(n_colors):
-            x = colors[face * n_colors + j]
-            if not math.isnan(x):
+            color = colors[face * n_colors + j]
+            if not math.isnan(color):
                 out[at] = 32
-                at = write_number(x, dotted, out, at + 1, powers)
+                at = write_number(color, dotted, out, at + 1, powers)
                 if at < 0:
                     break
         if at < 0:
