@@ -17,6 +17,7 @@ from halfmesh.errors import FormatError
 from halfmesh.io.numbers import DECIMAL, INTEGER, UNDECIDED, number, number_from_text, powers_of_ten
 from halfmesh.io.shortest import MOST_BYTES, UNWRITTEN, number_to_text, write_number
 from halfmesh.io.source import PADDING
+from halfmesh.io.text_writing import Table, row_text
 
 INTERPRETED = number.plain  # over memoryviews, as `kernel.at` calls it for small files
 GEARS = [number, INTERPRETED]
@@ -162,3 +163,15 @@ def test_any_points_survive_a_file_to_the_bit(tmp_path_factory: pytest.TempPathF
         path = tmp_path_factory.getbasetemp() / f"points{suffix}"
         io.write(path, np.zeros((0, 3), dtype=int), points)
         assert io.read(path)[1].tobytes() == points.tobytes()
+
+
+def test_rows_of_all_magnitudes_have_the_text_of_repr() -> None:
+    rng = np.random.default_rng(4)
+    near = 10.0 ** np.arange(-3, 9)
+    values = np.concatenate(
+        [rng.normal(size=600), np.round(rng.normal(size=300) * 1000, 3), 10.0 ** rng.uniform(-12, 12, 600), near,
+         np.nextafter(near, 0), np.nextafter(near, 1e9), np.arange(300) / 64, np.float32(rng.normal(size=300)), [1 - 2**-53, 0, -0.0]]
+    )  # fmt: skip
+    values[::2] *= -1
+    text = b"".join(bytes(piece) for piece in row_text(Table(values.reshape(-1, 3)))).decode()
+    assert text.split() == [number_to_text(x) for x in values.tolist()]

@@ -20,7 +20,6 @@ from halfmesh.io.shortest import (
     TOP,
     UNWRITTEN,
     few_digits,
-    n_digits,
     number_to_text,
     put_eight,
     quotient,
@@ -225,15 +224,18 @@ def write_rows(
             mantissa, binary = math.frexp(size)
             e = scale_of(binary)
             e -= size * powers[2 * (REACH + e)] >= TOP
-            digits, e = shortest_digits(size, mantissa, e, powers[2 * (REACH + e)], powers[2 * (REACH + e) + 1])
+            digits, shift = shortest_digits(size, mantissa, e, powers[2 * (REACH + e)], powers[2 * (REACH + e) + 1])
             if digits < 0:
                 at = UNWRITTEN
                 break
+            n = 17 - e - shift  # of 17 digits that many are left
+            n += digits >= ten_to(n)  # rounded up to one more
+            e = shift
             if x < 0.0:
                 out[at] = 45
                 at += 1
             if floor > 0:
-                n = few_digits(floor)
+                n += e  # digits before the point
                 put_eight(out, at, floor * ten_to(8 - n))
                 at += n
                 out[at] = 46
@@ -244,7 +246,6 @@ def write_rows(
                 put_eight(out, at + 8, digits - high * EIGHT_DIGITS)
                 at -= e
             else:
-                n = n_digits(digits)
                 out[at] = 48
                 out[at + 1] = 46
                 out[at + 2] = 48
