@@ -200,6 +200,13 @@ def test_bad_vertex_counts_are_refused(n):
         hm.Mesh([[0, 1, 2]], n_vertices=n)
 
 
+def test_without_a_vertex_count_faces_and_wire_say_it():
+    assert hm.Mesh([[0, 1, 2]]).n_vertices == 3
+    assert hm.Mesh([[0, 1, 2]], edges=[[2, 5]]).n_vertices == 6
+    assert hm.Mesh([], edges=[[0, 3]]).n_vertices == 4
+    assert hm.Mesh(np.array([[0, 1, 2]], dtype=np.uint64), edges=np.array([[1, 3]], dtype=np.int8)).n_vertices == 4
+
+
 def test_a_vertex_count_that_contradicts_the_points_is_refused():
     with pytest.raises(hm.InvalidMeshError):
         hm.Mesh([[0, 1, 2]], np.zeros((3, 3)), n_vertices=4)

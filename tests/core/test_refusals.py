@@ -116,8 +116,9 @@ def test_smaller_side_is_named_for_reversal():
 
 def test_one_stray_index_does_not_allocate_gigabytes():
     """Without points the vertex count is never taken from an index far beyond the corners."""
-    with pytest.raises(hm.InvalidMeshError, match="n_vertices"):
+    with pytest.raises(hm.InvalidMeshError, match="n_vertices") as caught:
         hm.Mesh([[0, 1, 2**31 - 5]])
+    assert caught.value.elements["corners"].tolist() == [2]
     with pytest.raises(hm.InvalidMeshError, match="n_vertices"):
         hm.Mesh([[0, 1, 2]], edges=[[0, 2**31 - 5]])
 

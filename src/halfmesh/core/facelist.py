@@ -84,7 +84,7 @@ def as_face_list(
     n_faces = len(offsets) - 1 if degree == 0 else len(corners) // degree
     if len(corners) > LIMIT:
         raise InvalidMeshError(f"{len(corners)} corners are more than int32 indices can name", reason="too_large")
-    n = _vertex_count(corners if wire is None else np.r_[corners, wire.reshape(-1)], n_vertices, n_points)
+    n = _vertex_count(corners, n_vertices, n_points, wire)
     return FaceList(_as_int32(corners), degree, offsets, n_faces, n)
 
 
@@ -221,7 +221,9 @@ def _as_int32(array: NDArray[np.integer]) -> Ints:
     return array.astype(np.int32)
 
 
-def _vertex_count(corners: NDArray[np.integer], n_vertices: int | None, n_points: int | None) -> int:
+def _vertex_count(
+    corners: NDArray[np.integer], n_vertices: int | None, n_points: int | None, wire: Ints | None
+) -> int:
     if n_points is not None:
         if n_vertices is not None and n_vertices != n_points:
             raise InvalidMeshError(f"n_vertices is {n_vertices} but there are {n_points} points", reason="bad_count")
@@ -232,11 +234,14 @@ def _vertex_count(corners: NDArray[np.integer], n_vertices: int | None, n_points
         if n_vertices > LIMIT:
             raise InvalidMeshError(f"{n_vertices} vertices are more than int32 indices can name", reason="too_large")
         return int(n_vertices)
-    top = int(corners.max()) + 1 if corners.size else 0
-    if top > 16 * len(corners) + 1024:  # one stray index must not allocate gigabytes
+    mentions = [corners] if wire is None else [corners, wire]
+    top = max((int(array.max()) for array in mentions if array.size), default=-1)
+    n = sum(array.size for array in mentions)
+    if top > 16 * n + 1024:  # one stray index must not allocate gigabytes
         raise InvalidMeshError(
-            f"the largest index is {top - 1} but there are only {len(corners)} entries; "
+            f"the largest index is {top} but faces and edges have only {n} entries; "
             "pass points or n_vertices if so many isolated vertices are meant",
             reason="index_out_of_range",
+            elements={"corners": np.flatnonzero(corners > 16 * n + 1024)},
         )
-    return max(top, 0)
+    return max(top + 1, 0)
