@@ -221,9 +221,7 @@ def _as_int32(array: NDArray[np.integer]) -> Ints:
     return array.astype(np.int32)
 
 
-def _vertex_count(
-    corners: NDArray[np.integer], n_vertices: int | None, n_points: int | None, wire: Ints | None
-) -> int:
+def _vertex_count(corners: NDArray[np.integer], n_vertices: int | None, n_points: int | None, wire: Ints | None) -> int:
     if n_points is not None:
         if n_vertices is not None and n_vertices != n_points:
             raise InvalidMeshError(f"n_vertices is {n_vertices} but there are {n_points} points", reason="bad_count")
