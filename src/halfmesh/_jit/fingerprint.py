@@ -104,4 +104,5 @@ def _value_parts(value: Any, seen: set[int]) -> Iterator[bytes]:
     elif isinstance(value, type | types.BuiltinFunctionType | types.ModuleType):
         yield f"{getattr(value, '__module__', '')}.{getattr(value, '__qualname__', value)}".encode()
     else:
-        yield f"{type(value).__qualname__} {value!r}".encode()  # a repr with an address in it only costs the cache, never correctness
+        # a repr with an address in it only costs the cache, never correctness
+        yield f"{type(value).__qualname__} {value!r}".encode()
