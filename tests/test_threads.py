@@ -162,6 +162,37 @@ def test_kernels_release_the_lock_of_the_interpreter():
     assert during > 3
 
 
+CHANGING = """
+import threading
+import numpy as np
+import halfmesh as hm
+n = 300
+a = (np.arange(n)[:, None] * (n + 1) + np.arange(n)).ravel()
+faces = np.concatenate([np.c_[a, a + 1, a + n + 2], np.c_[a, a + n + 2, a + n + 1]]).astype(np.int32)
+rows, stop = np.arange(0, len(faces), 90), threading.Event()
+def change():
+    while not stop.is_set():
+        faces[rows, 1] = 2**30
+        faces[rows, 1] = a[rows % len(a)]
+thread = threading.Thread(target=change)
+thread.start()
+for _ in range(30):
+    try:
+        hm.Mesh(faces, n_vertices=(n + 1) ** 2)
+    except hm.InvalidMeshError:
+        pass
+stop.set()
+thread.join()
+print("alive")
+"""
+
+
+@pytest.mark.large
+def test_faces_that_another_thread_changes_while_they_are_read_do_no_harm():
+    """A mesh or the exception, never a crash: the checked indices are the library's own copy."""
+    assert in_a_process(CHANGING) == ["alive"]
+
+
 def test_one_mesh_may_be_read_by_several_threads():
     mesh = hm.Mesh(grid(20, 3))
     with ThreadPoolExecutor(4) as pool:

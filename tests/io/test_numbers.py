@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 import struct
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
@@ -19,8 +18,9 @@ from halfmesh.io.shortest import MOST_BYTES, UNWRITTEN, number_to_text, write_nu
 from halfmesh.io.source import PADDING
 from halfmesh.io.text_writing import Table, row_text
 
-INTERPRETED = number.plain  # over memoryviews, as `kernel.at` calls it for small files
-GEARS = [number, INTERPRETED]
+COMPILED, INTERPRETED = number.at(10**9), number._quick  # as small and large files are read
+WRITE = write_number.at(10**9)
+GEARS = [COMPILED, INTERPRETED]
 FLOATS = st.floats(allow_nan=False) | st.integers(0, 2**64 - 1).map(
     lambda i: struct.unpack("<d", struct.pack("<Q", i))[0]
 )
@@ -35,10 +35,7 @@ def bits(x: float) -> bytes:
 def parsed(gear: object, text: str) -> tuple[float | None, int]:
     padded = np.frombuffer(text.encode() + b"\n" * PADDING, dtype=np.uint8).copy()
     n = len(padded) - PADDING
-    arrays: tuple[Any, Any] = (padded, powers_of_ten())
-    if gear is INTERPRETED:
-        arrays = (memoryview(arrays[0]), memoryview(arrays[1]))
-    value, end, kind = gear(arrays[0], 0, n, arrays[1])  # type: ignore[operator]
+    value, end, kind = gear(padded, 0, n, powers_of_ten())  # type: ignore[operator]
     assert end == n
     return (number_from_text(text.encode()) if kind == UNDECIDED else float(value)), int(kind)
 
@@ -71,12 +68,12 @@ def test_any_decimal_reads_as_float_reads_it(parts: tuple[str, str, str]) -> Non
 @given(st.integers(1, 10**18), st.integers(-40, 40))
 def test_both_gears_decide_alike(w: int, e: int) -> None:
     text = f"{w}e{e}"
-    assert parsed(number, text) == parsed(INTERPRETED, text)
+    assert parsed(COMPILED, text) == parsed(INTERPRETED, text)
 
 
 @pytest.mark.parametrize("text", ["nan", "NaN", "-inf", "+Infinity", "1e400", "-1e-400"])
 def test_words_and_overflow_are_those_of_float(text: str) -> None:
-    value, kind = parsed(number, text)
+    value, kind = parsed(COMPILED, text)
     assert kind == UNDECIDED
     assert value is not None
     assert value == float(text) or (math.isnan(value) and math.isnan(float(text)))
@@ -86,7 +83,7 @@ def test_words_and_overflow_are_those_of_float(text: str) -> None:
     "text", ["0x1p3", "1_000", "1,5", "1d5", "--1", "+", ".", "e5", "1e", "1e+", "1.2.3", "nan(ind)", "1X", "\u0661"]
 )
 def test_what_is_no_decimal_number_is_refused(text: str, tmp_path: Path) -> None:
-    assert parsed(number, text) == (None, UNDECIDED)
+    assert parsed(COMPILED, text) == (None, UNDECIDED)
     (tmp_path / "a.obj").write_bytes(b"v 0 0 " + text.encode() + b"\n")
     with pytest.raises(FormatError, match=r"line 1: expected a number"):
         io.read(tmp_path / "a.obj")
@@ -105,12 +102,12 @@ def test_a_comment_may_touch_a_number(tmp_path: Path) -> None:
 
 
 def test_integers_and_decimals_are_told_apart() -> None:
-    assert [parsed(number, text)[1] for text in ("12", "-0", "12.", "1e3")] == [INTEGER, INTEGER, DECIMAL, DECIMAL]
+    assert [parsed(COMPILED, text)[1] for text in ("12", "-0", "12.", "1e3")] == [INTEGER, INTEGER, DECIMAL, DECIMAL]
 
 
 def test_a_number_of_a_megabyte_takes_linear_time() -> None:
     digits = "1" * 1_000_000
-    assert parsed(number, f"0.{digits}")[0] == float(f"0.{digits}")
+    assert parsed(COMPILED, f"0.{digits}")[0] == float(f"0.{digits}")
 
 
 # ---------------------------------------------------------------------------------------------------------- writing
@@ -118,10 +115,7 @@ def test_a_number_of_a_megabyte_takes_linear_time() -> None:
 
 def written(gear: object, x: float, dotted: bool = False) -> str | None:
     out = np.zeros(MOST_BYTES + 2, dtype=np.uint8)
-    arrays: tuple[Any, Any] = (out, powers_of_ten())
-    if gear is write_number.plain:
-        arrays = (memoryview(arrays[0]), memoryview(arrays[1]))
-    end = gear(x, dotted, arrays[0], 0, arrays[1])  # type: ignore[operator]
+    end = gear(x, dotted, out, 0, powers_of_ten())  # type: ignore[operator]
     assert end <= MOST_BYTES
     return None if end == UNWRITTEN else bytes(out[:end]).decode()
 
@@ -135,7 +129,7 @@ def written(gear: object, x: float, dotted: bool = False) -> str | None:
 @example(-0.0)
 @example(9007199254740992.0)
 def test_the_text_is_that_of_repr(x: float) -> None:
-    texts = {written(gear, x) for gear in (write_number, write_number.plain)}
+    texts = {written(gear, x) for gear in (WRITE, write_number._quick)}
     assert len(texts) == 1
     assert texts <= {None, repr(x).removesuffix(".0")}
 
@@ -143,16 +137,16 @@ def test_the_text_is_that_of_repr(x: float) -> None:
 @pytest.mark.parametrize("dtype", [np.float64, np.float32])
 def test_ordinary_numbers_are_hardly_ever_left_to_python(dtype: type) -> None:
     values = np.random.default_rng(1).normal(size=2000).astype(dtype).astype(np.float64)
-    assert sum(written(write_number, x) is None for x in values.tolist()) <= 10
+    assert sum(written(WRITE, x) is None for x in values.tolist()) <= 10
 
 
 @given(st.integers(-(10**6), 10**6).map(lambda i: i / 1000))
 def test_few_digits_stay_few(x: float) -> None:
-    assert written(write_number, x) == number_to_text(x)
+    assert written(WRITE, x) == number_to_text(x)
 
 
 def test_floats_that_are_whole_can_be_marked_as_floats() -> None:
-    assert [written(write_number, 2.0, dotted) for dotted in (False, True)] == ["2", "2.0"]
+    assert [written(WRITE, 2.0, dotted) for dotted in (False, True)] == ["2", "2.0"]
 
 
 @given(st.lists(FLOATS | st.sampled_from([math.nan, math.inf, -math.inf]), min_size=3, max_size=60))
@@ -170,7 +164,8 @@ def test_rows_of_all_magnitudes_have_the_text_of_repr() -> None:
     near = 10.0 ** np.arange(-3, 9)
     values = np.concatenate(
         [rng.normal(size=600), np.round(rng.normal(size=300) * 1000, 3), 10.0 ** rng.uniform(-12, 12, 600), near,
-         np.nextafter(near, 0), np.nextafter(near, 1e9), np.arange(300) / 64, np.float32(rng.normal(size=300)), [1 - 2**-53, 0, -0.0]]
+         np.nextafter(near, 0), np.nextafter(near, 1e9), np.arange(300) / 64, np.float32(rng.normal(size=300)),
+         [1 - 2**-53, 0, -0.0]]
     )  # fmt: skip
     values[::2] *= -1
     text = b"".join(bytes(piece) for piece in row_text(Table(values.reshape(-1, 3)))).decode()

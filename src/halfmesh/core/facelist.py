@@ -210,10 +210,11 @@ def _check_integers(array: NDArray[Any], name: str) -> None:
 def _as_int32(array: NDArray[np.integer]) -> Ints:
     """int32 without wrapping around: what does not fit becomes -2, which is out of range and found as such.
 
+    Always a copy: nobody may change the indices between the kernel that checks their range and those that follow them.
     In C order, aligned and writable: anything else is another type to a compiler, and would be compiled for again.
     """
     if array.dtype == np.int32 and array.dtype.isnative:
-        return np.require(array, requirements=("C", "A", "W"))
+        return np.array(array, order="C", subok=False)
     if array.size and not np.can_cast(array.dtype, np.int32):
         low, high = int(array.min()), int(array.max())
         if low < -(2**31) or high >= 2**31:

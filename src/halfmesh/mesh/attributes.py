@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike, DTypeLike, NDArray
 
 from halfmesh import _jit
+from halfmesh.errors import InvalidMeshError
 
 __all__ = ["AttributeTable", "Column"]
 
@@ -127,8 +128,9 @@ class AttributeTable(MutableMapping[str, NDArray[Any]]):
         array = np.array(values, order="C")
         array = array.astype(_checked_dtype(array.dtype), copy=False)
         if array.ndim == 0 or len(array) != self._size():
-            raise ValueError(
-                f"{self._kind} data {name!r} needs {self._size()} rows, one per {self._kind}; got shape {array.shape}"
+            raise InvalidMeshError(
+                f"{self._kind} data {name!r} needs {self._size()} rows, one per {self._kind}; got shape {array.shape}",
+                reason="bad_attribute",
             )
         old = self._columns.get(name)
         if (
@@ -136,7 +138,9 @@ class AttributeTable(MutableMapping[str, NDArray[Any]]):
             and name in self._required
             and (array.shape[1:], array.dtype) != (old.values.shape[1:], old.values.dtype)
         ):
-            raise ValueError(f"{name!r} stays {old.values.dtype} of shape (n, {old.values.shape[1]})")
+            raise InvalidMeshError(
+                f"{name!r} stays {old.values.dtype} of shape (n, {old.values.shape[1]})", reason="bad_attribute"
+            )
         self._set(name, Column(array, old.default if old else 0))
 
     def __delitem__(self, name: str) -> None:
