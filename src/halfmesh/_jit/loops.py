@@ -144,9 +144,7 @@ def _modules(function: types.FunctionType) -> tuple[str, ...]:
     return tuple(n for n, value in {**scope.globals, **scope.nonlocals}.items() if isinstance(value, types.ModuleType))
 
 
-def _compiled(
-    tree: ast.Module, function: types.FunctionType, imports: tuple[str, ...] = ()
-) -> types.CodeType | None:
+def _compiled(tree: ast.Module, function: types.FunctionType, imports: tuple[str, ...] = ()) -> types.CodeType | None:
     """The code object of the definition in `tree`, with the function's closure variables as free variables."""
     wrapper = ast.parse("def _closure():\n    pass")
     outer = wrapper.body[0]
