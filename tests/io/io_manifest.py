@@ -18,6 +18,7 @@ class Row(NamedTuple):
     n_faces: int | None
     degrees: dict[int, int]
     expect: str
+    n_bytes: int
 
 
 def rows(*folders: str) -> list[Row]:
@@ -36,4 +37,4 @@ def _wanted(path: str, folders: tuple[str, ...]) -> bool:
 def _row(row: dict[str, str]) -> Row:
     v, e, f = (int(row[c]) if row[c].isdigit() else None for c in "VEF")
     pairs = (pair.split(":") for pair in row["degrees"].split(",") if pair.replace(":", "").isdigit())
-    return Row(row["path"], v, e, f, {int(d): int(n) for d, n in pairs}, row["expect"])
+    return Row(row["path"], v, e, f, {int(d): int(n) for d, n in pairs}, row["expect"], int(row["bytes"]))

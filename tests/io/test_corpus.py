@@ -19,7 +19,10 @@ BINARY = "off/pmp__fairing-cross.off"
 
 
 def named(rows: list[manifest.Row]) -> pytest.MarkDecorator:
-    return pytest.mark.parametrize("row", rows, ids=[row.path for row in rows])
+    marks = [[pytest.mark.large] if row.n_bytes > 150_000 else [] for row in rows]
+    return pytest.mark.parametrize(
+        "row", [pytest.param(row, marks=mark, id=row.path) for row, mark in zip(rows, marks, strict=True)]
+    )
 
 
 def test_the_corpus_was_found(corpus: Path) -> None:

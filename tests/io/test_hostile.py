@@ -149,6 +149,7 @@ def small_files() -> list[manifest.Row]:
     return [row for row in rows if (manifest.CORPUS / row.path).stat().st_size < 40_000]
 
 
+@pytest.mark.large
 @pytest.mark.parametrize("row", small_files(), ids=lambda row: row.path)
 def test_interpreted_and_compiled_reading_agree(
     row: manifest.Row, corpus: Path, monkeypatch: pytest.MonkeyPatch
