@@ -166,7 +166,7 @@ CHANGING = """
 import threading
 import numpy as np
 import halfmesh as hm
-n = 300
+n = 700
 a = (np.arange(n)[:, None] * (n + 1) + np.arange(n)).ravel()
 faces = np.concatenate([np.c_[a, a + 1, a + n + 2], np.c_[a, a + n + 2, a + n + 1]]).astype(np.int32)
 rows, stop = np.arange(0, len(faces), 90), threading.Event()
@@ -176,7 +176,7 @@ def change():
         faces[rows, 1] = a[rows % len(a)]
 thread = threading.Thread(target=change)
 thread.start()
-for _ in range(30):
+for _ in range(20):
     try:
         hm.Mesh(faces, n_vertices=(n + 1) ** 2)
     except hm.InvalidMeshError:
