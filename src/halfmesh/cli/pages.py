@@ -66,7 +66,7 @@ def show_report(report: Report, *, first: bool = True) -> None:
     out = console()
     if not first:
         out.print()
-    out.print(Text(click.format_filename(report.path), style="bold"))
+    out.print(Text(click.format_filename(report.path), style="bold"), soft_wrap=True)  # a path stays in one piece
     print_table(out, report.rows())
 
 
