@@ -264,3 +264,22 @@ def test_mean_degree_is_twice_the_edges_over_the_vertices():
 def test_building_time_is_kept():
     """D10."""
     assert 0 < ZOO["cube"].mesh().build_seconds < 60
+
+
+def test_meta_is_copied_and_pickled(tmp_path):
+    path = tmp_path / "group.obj"
+    path.write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\ng left\nf 1 2 3\n")
+    mesh = hm.load(path)
+    names = list(mesh.meta["groups"])
+    assert names == ["left"]
+    copied = mesh.copy()
+    copied.meta["groups"].append("right")
+    assert list(mesh.meta["groups"]) == names == list(pickle.loads(pickle.dumps(mesh)).meta["groups"])
+
+
+def test_names_of_groups_survive_load_and_save(tmp_path):
+    path = tmp_path / "group.obj"
+    path.write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\ng left\nusemtl red\nf 1 2 3\n")
+    hm.save(hm.load(path), tmp_path / "again.obj")
+    again = hm.load(tmp_path / "again.obj")
+    assert (list(again.meta["groups"]), list(again.meta["materials"])) == (["left"], ["red"])

@@ -35,9 +35,7 @@ def mesh_of(data: MeshData, path: str) -> Mesh:
             mesh.halfedge_data[name] = _spread(values, of_corner, len(mesh.topology.next))
     if len(marked):
         mesh.edge_data[LINE] = np.isin(_keys(mesh.edge_vertices(), data.n_vertices), marked)
-    kept = getattr(mesh, "meta", None)
-    if isinstance(kept, dict):
-        kept.update(data.meta)
+    mesh.meta.update(data.meta)
     return mesh
 
 
@@ -51,8 +49,7 @@ def data_of(mesh: Mesh) -> MeshData:
     if len(mesh.halfedge_data):
         of_corner = mesh.corner_halfedges()
         data.halfedge = {name: values[of_corner] for name, values in mesh.halfedge_data.items()}
-    kept = getattr(mesh, "meta", None)
-    data.meta = dict(kept) if isinstance(kept, dict) else {}
+    data.meta = dict(mesh.meta)
     return data
 
 

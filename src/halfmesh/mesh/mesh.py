@@ -8,6 +8,7 @@ from __future__ import annotations
 import time
 import weakref
 from collections.abc import Callable
+from copy import deepcopy
 from typing import Any, TypeVar
 
 import numpy as np
@@ -61,6 +62,19 @@ class Mesh:
     edges : (n, 2) array_like of int, optional
         Wire: edges without faces.
 
+    Attributes
+    ----------
+    vertex_data, halfedge_data, edge_data, face_data : AttributeTable
+        Named arrays on the elements.
+    vertices, halfedges, edges, faces : Collection
+        The elements as handles: iterate, ``len``, ``[index]``, ``in``.
+    has_points : bool
+        Whether points were given.
+    meta : dict
+        Notes that belong to no element, such as the names of an OBJ file's groups; kept by `copy`, `load` and `save`.
+    build_seconds : float
+        How long the construction took.
+
     Raises
     ------
     InvalidMeshError
@@ -103,6 +117,7 @@ class Mesh:
             topology = with_wire(topology, wire)
         self._hold(topology)
         self.has_points = positions is not None
+        self.meta: dict[str, Any] = {}
         if positions is None:
             positions = np.zeros((face_list.n_vertices, 3))
         self.vertex_data["points"] = positions
@@ -358,7 +373,7 @@ class Mesh:
         """An independent copy with its attributes. O(n)."""
         made = object.__new__(type(self))
         made._hold(self._topology.copy())
-        made.has_points, made.build_seconds = self.has_points, self.build_seconds
+        made.has_points, made.build_seconds, made.meta = self.has_points, self.build_seconds, deepcopy(self.meta)
         for name in _TABLES:
             getattr(made, name)._adopt(getattr(self, name)._columns_in_use())
         return made
@@ -370,11 +385,12 @@ class Mesh:
 
     def __getstate__(self) -> dict[str, Any]:
         state: dict[str, Any] = {name: getattr(self, name)._columns_in_use() for name in _TABLES}
-        return state | {"topology": self._topology, "has_points": self.has_points, "build_seconds": self.build_seconds}
+        return state | {"topology": self._topology} | {name: getattr(self, name) for name in _REMARKS}
 
     def __setstate__(self, state: dict[str, Any]) -> None:
         self._hold(state["topology"])
-        self.has_points, self.build_seconds = state["has_points"], state["build_seconds"]
+        for name in _REMARKS:
+            setattr(self, name, state[name])
         for name in _TABLES:
             getattr(self, name)._adopt(state[name])
 
@@ -400,6 +416,7 @@ class Mesh:
         self._topology.__refresh__()
 
 
+_REMARKS = ("has_points", "build_seconds", "meta")
 _TABLES = ("vertex_data", "halfedge_data", "edge_data", "face_data")
 
 
