@@ -331,3 +331,14 @@ def test_every_loop_over_a_circulator_in_the_library_is_written_out():
             names = {n for n in k.py_func.__code__.co_names if isinstance(k.py_func.__globals__.get(n), Circulator)}
             left = names & {*unrolled(k.py_func, lambda value: isinstance(value, Circulator)).__code__.co_names}
             assert not left, k
+
+
+def test_files_of_long_ago_are_dropped_from_the_cache(tmp_path):
+    from halfmesh._jit import compiler
+
+    for name, days in (("old.nbi", 70), ("old.1.nbc", 70), ("young.nbi", 5), ("note.txt", 70)):
+        (tmp_path / name).touch()
+        long_ago = (tmp_path / name).stat().st_mtime - days * 86400
+        os.utime(tmp_path / name, (long_ago, long_ago))
+    compiler._prune(str(tmp_path))
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["note.txt", "young.nbi"]

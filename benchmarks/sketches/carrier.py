@@ -1,7 +1,7 @@
 """What should `t` be inside a kernel, and what does a readable circulator cost?
 
-The same one-ring pass over the same columns: as arrays passed one by one with a hand-written do-while, as a NamedTuple of
-arrays, as a structref; and over the structref with the circulator left to Numba as a generator, and written out.
+The same one-ring pass over the same columns: as arrays passed one by one with a hand-written do-while, as a NamedTuple
+of arrays, as a structref; and over the structref with the circulator left to Numba as a generator, and written out.
 """
 
 from __future__ import annotations

@@ -9,6 +9,7 @@ import os
 import pathlib
 import sys
 import threading
+import time
 import types
 from typing import TYPE_CHECKING, Any
 
@@ -178,8 +179,19 @@ def _disk_cache(function: types.FunctionType, stamp: str) -> FunctionCache | Non
         def save_overload(self, sig: Any, data: Any) -> None:
             with contextlib.suppress(Exception):  # a full disk, what can't be pickled: it is not kept, that is all
                 super().save_overload(sig, data)
+                _prune(folder)
 
     return Cache(function)  # type: ignore[no-untyped-call, unused-ignore]
+
+
+@functools.cache
+def _prune(folder: str) -> None:
+    """Drop what earlier versions of kernels left behind; once in a process, and only in one that compiles anyway."""
+    oldest = time.time() - 60 * 86400
+    for entry in pathlib.Path(folder).glob("*.nb?"):
+        with contextlib.suppress(OSError):
+            if entry.stat().st_mtime < oldest:
+                entry.unlink()
 
 
 # -- carriers ----------------------------------------------------------------------------------------------------------
