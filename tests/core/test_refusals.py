@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -152,3 +153,22 @@ def test_refusal_is_a_value_error_and_a_halfmesh_error():
     with pytest.raises(ValueError, match="out of range") as caught:
         hm.Mesh([[0, 1, 7]], n_vertices=3)
     assert isinstance(caught.value, hm.HalfmeshError)
+
+
+def test_faces_that_repeat_others_are_named_first():
+    with pytest.raises(
+        hm.InvalidMeshError, match=r"^2 faces have the vertices of an earlier one \(2 like 0, 3 like 1\)"
+    ) as caught:
+        hm.Mesh([[0, 1, 2], [0, 2, 3], [1, 2, 0], [3, 0, 2]])
+    assert caught.value.elements["repeats"].tolist() == [2, 3]
+
+
+def test_nothing_is_called_a_repetition_that_is_none():
+    with pytest.raises(hm.InvalidMeshError) as caught:
+        hm.Mesh([[0, 1, 2], [0, 1, 3], [0, 1, 4]])
+    assert "repeats" not in caught.value.elements
+
+
+def test_swapped_arguments_are_told_apart():
+    with pytest.raises(hm.InvalidMeshError, match=r"the order is Mesh\(faces, points\)"):
+        hm.Mesh(np.zeros((3, 3)), np.array([[0, 1, 2]]))

@@ -224,3 +224,8 @@ def test_arrays_that_no_file_could_hold_are_refused(faces: object, points: objec
         io.write(tmp_path / "a.off", faces, points)  # type: ignore[arg-type]
     assert caught.value.reason == reason
     assert names(tmp_path) == []
+
+
+def test_save_of_what_is_no_mesh_says_what_to_call(tmp_path):
+    with pytest.raises(hm.ElementError, match=r"write\(path, faces, points\)"):
+        hm.save(([[0, 1, 2]], [[0, 0, 0]] * 3), tmp_path / "a.off")

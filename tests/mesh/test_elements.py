@@ -385,3 +385,11 @@ def test_copies_keep_the_deleted_deleted():
     for again in (mesh.copy(), copy.deepcopy(mesh), pickle.loads(pickle.dumps(mesh))):
         hm.testing.assert_valid(again)
         assert 0 not in again.vertices
+
+
+def test_point_of_a_vertex_can_be_assigned_and_added_to():
+    mesh = hm.shapes.cube()
+    v = mesh.vertices[0]
+    v.point = (1, 2, 3)
+    v.point += 1
+    assert mesh.points[0].tolist() == [2, 3, 4]

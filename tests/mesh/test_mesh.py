@@ -237,7 +237,7 @@ def test_copy_can_be_used_in_kernels_like_the_original():
 
 def test_repr_is_one_line_that_says_what_it_is():
     assert repr(ZOO["cube"].mesh()) == "<Mesh: 8 vertices, 12 edges, 6 faces, closed>"
-    assert repr(ZOO["triangle"].mesh()) == "<Mesh: 3 vertices, 3 edges, 1 faces, with boundary>"
+    assert repr(ZOO["triangle"].mesh()) == "<Mesh: 3 vertices, 3 edges, 1 face, with boundary>"
 
 
 @every_mesh

@@ -76,6 +76,7 @@ def dispatcher(
     source: types.FunctionType | None = None,
     keep: bool = True,
     unchecked: bool = False,
+    bounds: bool = False,
     salt: str = "",
 ) -> Any:
     """The Numba dispatcher of a function.
@@ -90,6 +91,8 @@ def dispatcher(
         Keep the result on disk.
     unchecked : bool
         Read columns without Numba's test for negative indices (but with it where bounds are checked).
+    bounds : bool
+        Check every index of the function's own text.
     salt : str
         What else the cache key depends on.
     """
@@ -97,7 +100,7 @@ def dispatcher(
     source = source or function
     if unchecked and not numba().config.BOUNDSCHECK:
         source = with_column_reads(source, _unchecked())
-    made = numba().njit(error_model="numpy", nogil=True)(source)
+    made = numba().njit(error_model="numpy", nogil=True, boundscheck=bounds or None)(source)
     cache = _disk_cache(source, fingerprint(function, salt, _own_source(), *_versions())) if keep else None
     if cache is not None:
         made._cache = cache

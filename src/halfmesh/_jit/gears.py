@@ -7,9 +7,11 @@ import os
 import sys
 from collections.abc import Iterator
 
-__all__ = ["SMALL", "always_compile", "compiling_always", "interpret_only", "strict"]
+__all__ = ["ENOUGH", "SMALL", "always_compile", "compiling_always", "interpret_only", "strict"]
 
 SMALL = 3000  # elements; below it an interpreted pass (about 1 us per element and step) beats importing Numba (0.4 s)
+
+ENOUGH = 10_000  # elements; a kernel that has interpreted so many of them, in small inputs, is compiled after all
 
 
 def _is_set(name: str) -> bool:

@@ -12,7 +12,7 @@ import numpy as np
 from halfmesh._jit import gears
 from halfmesh._jit.arguments import Views, arrays, interpretable, lowered, refresh, view
 from halfmesh._jit.compiler import Compilable, dispatcher
-from halfmesh._jit.loops import inlined, unrolled
+from halfmesh._jit.loops import inlined, misspelled, unrolled
 
 __all__ = ["Circulator", "Kernel", "Rule", "all_kernels", "circulator", "kernel", "rule"]
 
@@ -33,6 +33,7 @@ class Kernel(Compilable, Generic[P, R]):
         functools.update_wrapper(self, function)
         assert isinstance(function, types.FunctionType)
         self.py_func: types.FunctionType = function
+        self._interpreted_so_far = 0
         all_kernels.append(self)
 
     def __call__(self, *args: P.args, **kwargs: P.kwargs) -> R:
@@ -43,10 +44,42 @@ class Kernel(Compilable, Generic[P, R]):
         return self._compiled_call(*args)
 
     def _compiled_call(self, *args: Any) -> R:
-        result: R = self.compiled(*[lowered(a) for a in args])
+        return self._run(self.compiled, args)
+
+    def _run(self, compiled: Any, args: tuple[Any, ...]) -> R:
+        try:
+            result: R = compiled(*[lowered(a) for a in args])
+        except Exception as error:
+            self._explain(error)
+            raise
         for a in args:
             refresh(a)
         return result
+
+    def _explain(self, error: Exception) -> None:
+        """Say at the end of what Python or Numba reports which kernel it was, and what usually helps."""
+        code = self.py_func.__code__
+        if not any(self.__qualname__ in note for note in getattr(error, "__notes__", ())):
+            error.add_note(
+                f"in the kernel {self.__qualname__} ({code.co_filename}, line {code.co_firstlineno}). "
+                f"{self.__name__}.interpreted(...) runs the same text in plain Python and shows the line. "
+                "In a kernel the mesh is its topology t: hm.vertex_slots(t), hm.next_of(t, h), hm.outgoing(t, v); "
+                "positions and other data are arguments of their own." + misspelled(self.py_func)
+            )
+
+    def checked(self, *args: Any) -> R:
+        """Run compiled, with every index of this kernel's own text checked: IndexError instead of a broken process.
+
+        Compiled anew in each process and not kept, so for finding a mistake only.
+        """
+        if gears.interpret_only:
+            return self.interpreted(*args)  # type: ignore[call-arg]
+        return self._run(self._checked, args)
+
+    @functools.cached_property
+    def _checked(self) -> Any:
+        source = unrolled(self.py_func, _is_circulator)
+        return dispatcher(self.py_func, source=source, keep=False, bounds=True)
 
     @functools.cached_property
     def compiled(self) -> Any:
@@ -64,10 +97,19 @@ class Kernel(Compilable, Generic[P, R]):
         return plain(*[interpretable(a) for a in args], **kwargs)  # type: ignore[no-any-return]
 
     def at(self, n: int) -> Callable[P, R]:
-        """The gear that suits an input of `n` elements; `n` decides only while this kernel has not been compiled."""
-        if gears.interpret_only or (n < gears.SMALL and not gears.always_compile and "compiled" not in self.__dict__):
+        """The gear that suits an input of `n` elements; it decides only while this kernel has not been compiled.
+
+        Many small inputs are a large one: once a kernel has interpreted enough of them, it is compiled.
+        """
+        if gears.interpret_only or (not gears.always_compile and "compiled" not in self.__dict__ and self._is_small(n)):
             return self._quick  # type: ignore[return-value]
         return self._compiled_call  # type: ignore[return-value]
+
+    def _is_small(self, n: int) -> bool:
+        if n >= gears.SMALL or self._interpreted_so_far >= gears.ENOUGH:
+            return False
+        self._interpreted_so_far += n
+        return True
 
     def _quick(self, *args: Any) -> R:
         """Interpreted over memoryviews: elements are plain ints and floats, twice as fast as NumPy scalars."""
@@ -97,11 +139,11 @@ class Rule(Kernel[P, R]):
         return inlined(function, name, self.py_func)  # type: ignore[arg-type,return-value]
 
     def __call__(self, *args: P.args, **kwargs: P.kwargs) -> R:
-        t, *rest = args
+        t, *rest = _positional(self.py_func, args, kwargs) if kwargs else args
         plain: Any = self.plain
         if any(isinstance(x, np.ndarray) for x in rest):
-            return plain(arrays(t), *rest, **kwargs)  # type: ignore[no-any-return]
-        return plain(interpretable(t), *rest, **kwargs)  # type: ignore[no-any-return]
+            return plain(arrays(t), *rest)  # type: ignore[no-any-return]
+        return plain(interpretable(t), *rest)  # type: ignore[no-any-return]
 
 
 def kernel(function: Callable[P, R]) -> Kernel[P, R]:

@@ -23,12 +23,13 @@ from __future__ import annotations
 
 import ast
 import copy
+import difflib
 import inspect
 import textwrap
 import types
 from typing import Any, Protocol, TypeGuard
 
-__all__ = ["LoopRule", "inlined", "unrolled", "with_column_reads"]
+__all__ = ["LoopRule", "inlined", "misspelled", "unrolled", "with_column_reads"]
 
 
 class LoopRule(Protocol):
@@ -70,6 +71,19 @@ class _ColumnReads(ast.NodeTransformer):
             return node
         call = ast.Call(func=ast.Name(id="_read", ctx=ast.Load()), args=[node.value, node.slice], keywords=[])
         return ast.copy_location(ast.fix_missing_locations(ast.copy_location(call, node)), node)
+
+
+def misspelled(function: types.FunctionType) -> str:
+    """A remark on the first ``module.name`` in the function that the module doesn't have; empty if all are there."""
+    tree = _parsed(function)
+    for node in ast.walk(tree) if tree is not None else ():
+        if isinstance(node, ast.Attribute) and isinstance(node.value, ast.Name):
+            module = function.__globals__.get(node.value.id)
+            if isinstance(module, types.ModuleType) and not hasattr(module, node.attr):
+                close = difflib.get_close_matches(node.attr, dir(module), 1)
+                meant = f"; did you mean {node.value.id}.{close[0]}?" if close else ""
+                return f" Line {node.lineno}: there is no {node.value.id}.{node.attr}{meant}"
+    return ""
 
 
 def inlined(function: types.FunctionType, name: str, rule: types.FunctionType) -> types.FunctionType:

@@ -31,7 +31,7 @@ if hasattr(os, "register_at_fork"):
 def n_threads() -> int:
     """How many threads flat loops are cut into: ``$HALFMESH_NUM_THREADS``, or the processors this process may use."""
     chosen = os.environ.get("HALFMESH_NUM_THREADS")
-    if chosen:
+    if chosen and chosen.isdecimal():
         return max(1, int(chosen))
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 

@@ -15,7 +15,7 @@ from halfmesh.cli.words import complaint_about, size_text
 from halfmesh.errors import HalfmeshError, InvalidMeshError
 from halfmesh.io.formats import format_of
 from halfmesh.io.meshes import mesh_of
-from halfmesh.mesh.summary import Summary
+from halfmesh.mesh.summary import Summary, duration
 
 __all__ = ["Report"]
 
@@ -95,11 +95,11 @@ class Report:
         if self.summary is not None:
             *shape, memory, built = self.summary.rows()
             made += [*shape, ("orientation", self.orientation), memory]
-            made += [("read in", f"{1000 * self.read_seconds:.3g} ms"), built]
+            made += [("read in", duration(self.read_seconds)), built]
         else:
             kinds = ", ".join(f"degree {d} {n:,}" for d, n in self.plain["face_degrees"].items()) or "none"
             made += [("points", f"{self.plain['vertices']:,}"), ("faces", f"{self.plain['faces']:,}")]
-            made += [("  by degree", kinds), ("read in", f"{1000 * self.read_seconds:.3g} ms")]
+            made += [("  by degree", kinds), ("read in", duration(self.read_seconds))]
             made.append(("as a mesh", f"can't be held: {getattr(self.error, 'reason', '').replace('_', ' ')}"))
         return made
 

@@ -33,7 +33,34 @@ def explain(faces: FaceList) -> InvalidMeshError:
     following = _following(begins)
     origin, target = corners.astype(np.int64), corners[following].astype(np.int64)
     error = _crowded_edges(faces, origin, target, face_of)
-    return error if error is not None else _crowded_vertices(faces, origin, target, following)
+    if error is None:
+        return _crowded_vertices(faces, origin, target, following)
+    return _with_repeats(error, faces, begins)
+
+
+def _with_repeats(error: InvalidMeshError, faces: FaceList, begins: Ints) -> InvalidMeshError:
+    """The same error; if faces are there twice, which is the commonest cause, that is said first."""
+    later, earlier = _repeats(faces.corners, begins)
+    if not len(later):
+        return error
+    shown = [f"{f} like {g}" for f, g in zip(later[:SHOWN], earlier, strict=False)] + [""] * (len(later) - SHOWN)
+    return InvalidMeshError(
+        f"{_plural(len(later), 'face has', 'faces have')} the vertices of an earlier one ({listed(shown)}): "
+        f"drop them first, see error.elements['repeats']. Besides: {error}",
+        reason=error.reason,
+        elements=error.elements | {"repeats": later},
+    )
+
+
+def _repeats(corners: Ints, begins: Ints) -> tuple[Ints, Ints]:
+    """Faces with the vertices of an earlier face, in any order; and for each the one before it that has them."""
+    mixed = (corners.astype(np.uint64) + np.uint64(1)) * np.uint64(0x9E3779B97F4A7C15)
+    mixed = (mixed ^ (mixed >> np.uint64(29))) * np.uint64(0xBF58476D1CE4E5B9)
+    key = np.add.reduceat(mixed ^ (mixed >> np.uint64(32)), begins[:-1])  # a sum: the same for any order
+    order = np.argsort(key, kind="stable")
+    same = np.flatnonzero(key[order][1:] == key[order][:-1])
+    by_number = np.argsort(order[same + 1])
+    return order[same + 1][by_number], order[same][by_number]
 
 
 def _following(begins: Ints) -> Ints:

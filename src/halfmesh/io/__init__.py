@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING, Any
 
 from numpy.typing import ArrayLike, NDArray
 
+from halfmesh.errors import ElementError
 from halfmesh.io.data import Faces, MeshData
 from halfmesh.io.formats import FORMATS, Format, format_of
 from halfmesh.io.source import Source
@@ -141,11 +142,18 @@ def save(mesh: Mesh, path: Path) -> None:
     ------
     FormatError
         The suffix is unknown, or the format can't hold the mesh (wire in OFF).
+    ElementError
+        The first argument is no mesh.
     OSError
         What the system refuses.
     """
     from halfmesh.io.meshes import data_of
+    from halfmesh.mesh.mesh import Mesh
 
+    if not isinstance(mesh, Mesh):
+        raise ElementError(
+            f"save(mesh, path) takes a Mesh, not {type(mesh).__name__}; for arrays: write(path, faces, points)"
+        )
     _write(data_of(mesh), path)
 
 

@@ -103,6 +103,12 @@ class Element:
     def __index__(self) -> int:
         return self.index
 
+    def __compiled__(self) -> int:
+        return self.index  # a kernel takes a handle as its index
+
+    def __views__(self) -> int:
+        return self.index
+
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Element):
             return NotImplemented
@@ -202,6 +208,10 @@ class Vertex(Element):
         self._check()
         row: NDArray[np.float64] = self._t.vertex_data["points"][self.index]
         return row
+
+    @point.setter
+    def point(self, point: Any) -> None:
+        self.point[:] = point
 
     @property
     def degree(self) -> int:

@@ -104,6 +104,7 @@ class Mesh(Counted):
         edges: ArrayLike | None = None,
     ) -> None:
         started = time.perf_counter()
+        _refuse_swapped(faces, points)
         positions = None if points is None else _as_points(points)
         wire = None if edges is None else as_indices(edges, "edges", 2)
         face_list = as_face_list(faces, n_vertices, None if positions is None else len(positions), wire)
@@ -282,7 +283,12 @@ class Mesh(Counted):
 
     def __repr__(self) -> str:
         kind = "with boundary" if self.has_boundary else "closed"
-        return f"<Mesh: {self.n_vertices} vertices, {self.n_edges} edges, {self.n_faces} faces, {kind}>"
+        counts = (
+            (self.n_vertices, "vertex", "vertices"),
+            (self.n_edges, "edge", "edges"),
+            (self.n_faces, "face", "faces"),
+        )
+        return f"<Mesh: {', '.join(f'{n} {one if n == 1 else many}' for n, one, many in counts)}, {kind}>"
 
     def _repr_html_(self) -> str:
         return self.summary()._repr_html_()
@@ -319,6 +325,14 @@ def _topology(faces: FaceList, twins: ArrayLike | None) -> Topology:
     if given is not None and len(crowded := invariants.one_ring_holds_all_of_a_vertex(topology)):
         raise explain_crowded(faces, crowded)
     return topology
+
+
+def _refuse_swapped(faces: Any, points: Any) -> None:
+    kinds = [array.dtype.kind for array in (faces, points) if isinstance(array, np.ndarray) and array.ndim == 2]
+    if len(kinds) == 2 and kinds[0] == "f" and kinds[1] in "iu":
+        raise InvalidMeshError(
+            "faces are floats and points are integers; the order is Mesh(faces, points)", reason="bad_dtype"
+        )
 
 
 def _as_points(points: ArrayLike) -> Floats:

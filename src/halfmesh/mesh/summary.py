@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 if TYPE_CHECKING:
     from halfmesh.mesh.mesh import Mesh
 
-__all__ = ["Summary", "summarize"]
+__all__ = ["Summary", "duration", "summarize"]
 
 
 @dataclass(frozen=True)
@@ -69,7 +69,7 @@ class Summary:
             ("Euler characteristic", f"{self.euler_characteristic:,}"),
             ("genus", f"{self.genus:,}"),
             ("memory", f"{_size(self.topology_bytes)} connectivity, {_size(self.attribute_bytes)} attributes"),
-            ("built in", f"{1000 * self.build_seconds:.3g} ms"),
+            ("built in", duration(self.build_seconds)),
         ]
 
     def __str__(self) -> str:
@@ -91,6 +91,11 @@ def _split(*numbers: int) -> str:
 
 def _polygon(degree: int) -> str:
     return {3: "triangles", 4: "quads", 5: "pentagons", 6: "hexagons"}.get(degree, f"{degree}-gons")
+
+
+def duration(seconds: float) -> str:
+    """``1.23 ms``, ``12.3 s``."""
+    return f"{1000 * seconds:.3g} ms" if seconds < 0.9995 else f"{seconds:.3g} s"
 
 
 def _size(n: int) -> str:

@@ -231,7 +231,7 @@ def polygon(n: int = 6, *, radius: float = 1.0) -> Mesh:
     --------
     >>> import halfmesh as hm
     >>> hm.shapes.polygon(7)
-    <Mesh: 7 vertices, 7 edges, 1 faces, with boundary>
+    <Mesh: 7 vertices, 7 edges, 1 face, with boundary>
     """
     n = whole("n", n, 3)
     holdable(n, f"polygon({n})")
