@@ -81,3 +81,13 @@ def test_page_of_the_command_line_names_every_command_and_option() -> None:
         assert f"## halfmesh {name}" in page
         for option in command.params:
             assert all(spelling in page for spelling in option.opts if spelling.startswith("--")), option
+
+
+@pytest.mark.parametrize("example", ["umbrella_smoothing", "boundary_walk", "degree_histogram", "breadth_first"])
+def test_loop_in_the_guide_is_the_one_of_the_example(example: str) -> None:
+    page = (ROOT / "docs/guide/kernels.md").read_text(encoding="utf-8")
+    program = (ROOT / "examples" / f"{example}.py").read_text(encoding="utf-8")
+    loops = [
+        loop for loop in re.findall(r"```python\n(@hm.kernel\n.*?)```", page, re.DOTALL) if loop.strip() in program
+    ]
+    assert len(loops) == 1

@@ -87,7 +87,7 @@ def in_small_pieces():
     with pytest.MonkeyPatch.context() as patch:
         patch.setenv("HALFMESH_NUM_THREADS", "3")
         patch.setattr(matching, "_PART", 1)
-        patch.setattr(matching, "_BLOCK_BITS", 1)
+        patch.setattr(matching, "_MOST_BITS", 1)
         yield
 
 

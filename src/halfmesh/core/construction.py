@@ -16,6 +16,7 @@ Each pass is cut into parts that write to disjoint places, so the result does no
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -134,10 +135,16 @@ def _written(faces: FaceList, halfedges: Ints, corners: Ints, n_edges: int) -> A
     n = faces.n_corners
     sources = (faces.corners, faces.degree, faces.offsets, faces.corner_faces(), halfedges, corners)
     columns = (arrays.next, arrays.prev, arrays.origin, arrays.face)
-    parallel(_write_halfedges.at(n), [(*sources, *columns, *p) for p in parts(n_edges, n)])
     arrays.vertex_halfedge[:] = NONE
-    _write_first_halfedges.at(n)(*sources[:3], halfedges, arrays.vertex_halfedge, arrays.face_halfedge, faces.n_faces)
+    first = (*sources[:3], halfedges, arrays.vertex_halfedge, arrays.face_halfedge, faces.n_faces)
+    jobs: list[tuple[Any, ...]] = [(_write_first_halfedges.at(n), *first)]
+    jobs += [(_write_halfedges.at(n), *sources, *columns, *piece) for piece in parts(n_edges, n)]
+    parallel(_do, jobs)
     return arrays
+
+
+def _do(function: Callable[..., Any], *arguments: Any) -> Any:
+    return function(*arguments)
 
 
 @kernel

@@ -57,6 +57,9 @@ def _repeats(corners: Ints, begins: Ints) -> tuple[Ints, Ints]:
     mixed = (corners.astype(np.uint64) + np.uint64(1)) * np.uint64(0x9E3779B97F4A7C15)
     mixed = (mixed ^ (mixed >> np.uint64(29))) * np.uint64(0xBF58476D1CE4E5B9)
     key = np.add.reduceat(mixed ^ (mixed >> np.uint64(32)), begins[:-1])  # a sum: the same for any order
+    in_order = np.sort(key)
+    if not (in_order[1:] == in_order[:-1]).any():
+        return begins[:0], begins[:0]
     order = np.argsort(key, kind="stable")
     same = np.flatnonzero(key[order][1:] == key[order][:-1])
     by_number = np.argsort(order[same + 1])

@@ -36,7 +36,7 @@ Ints = NDArray[np.int32]
 NONE = -1
 _PART = 20_000  # corners; below that a second thread costs more than it saves
 _MOST_PARTS = 8  # each holds a table of one int per vertex
-_BLOCK_BITS = 14  # 16384 vertices: about 100,000 corners, 1.2 MB
+_MOST_BITS = 14  # 16384 vertices: about 100,000 corners, 1.2 MB
 _MOST_BLOCKS = 512  # streams that are written at the same time
 
 
@@ -60,9 +60,9 @@ def mates_by_vertex(faces: FaceList) -> Ints:
         An index is out of range or repeated in succession, a halfedge is there twice, or a vertex can't be held.
     """
     n, n_vertices = faces.n_corners, faces.n_vertices
-    shift = max(_BLOCK_BITS, ((n_vertices - 1) // _MOST_BLOCKS).bit_length())
-    n_blocks = (n_vertices >> shift) + 1
     pieces = parts(faces.n_faces, n)
+    shift = _block_bits(n_vertices, len(pieces))
+    n_blocks = (n_vertices >> shift) + 1
     cursors = np.zeros((len(pieces), n_blocks), dtype=np.int32)
     source = (faces.corners, faces.degree, faces.offsets)
     jobs = [(*source, n_vertices, shift, row, *piece) for row, piece in zip(cursors, pieces, strict=True)]
@@ -76,6 +76,13 @@ def mates_by_vertex(faces: FaceList) -> Ints:
     if sum(parallel(_match_blocks.at(n), _block_jobs(streams, starts, shift, n_vertices, mates))):
         raise Defective
     return mates
+
+
+def _block_bits(n_vertices: int, n_parts: int) -> int:
+    """Blocks of 2^bits vertices: small enough for the cache, not too many, and several for each thread."""
+    several = (n_vertices // (8 * n_parts)).bit_length()
+    few = ((n_vertices - 1) // _MOST_BLOCKS).bit_length()
+    return max(few, min(several, _MOST_BITS))
 
 
 def _first_places(cursors: Ints) -> Ints:

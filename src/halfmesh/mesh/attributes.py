@@ -143,6 +143,10 @@ class AttributeTable(MutableMapping[str, NDArray[Any]]):
             )
         self._set(name, Column(array, old.default if old else 0))
 
+    def _keep(self, name: str, values: NDArray[Any]) -> None:
+        """Take an array as it is, without a copy: of the right length, in C order, and held by nobody else."""
+        self._set(name, Column(values))
+
     def __delitem__(self, name: str) -> None:
         if name in self._required:
             raise KeyError(f"{name!r} always exists")

@@ -116,7 +116,7 @@ class Mesh(Counted):
         self.meta: dict[str, Any] = {}
         if positions is None:
             positions = np.zeros((face_list.n_vertices, 3))
-        self.vertex_data["points"] = positions
+        self.vertex_data._keep("points", positions)
         self.build_seconds = time.perf_counter() - started
 
     def _hold(self, topology: Topology) -> None:
@@ -348,6 +348,8 @@ def _as_points(points: ArrayLike) -> Floats:
         raise InvalidMeshError(f"points has dtype {array.dtype}; expected real numbers", reason="bad_points")
     if array.ndim != 2 or array.shape[1] not in (2, 3):
         raise InvalidMeshError(f"points has shape {array.shape}; expected (n, 3) or (n, 2)", reason="bad_points")
+    if array.shape[1] == 3:
+        return np.array(array, dtype=np.float64, order="C", subok=False)
     made = np.zeros((len(array), 3))
-    made[:, : array.shape[1]] = array
+    made[:, :2] = array
     return made
