@@ -23,7 +23,7 @@ Numba structref; in interpreted code it is an ordinary object with the same attr
 from halfmesh._jit.arguments import Carrier, Views, view
 from halfmesh._jit.compiler import CarrierType, cache_folder, declare_carrier
 from halfmesh._jit.gears import compiling_always
-from halfmesh._jit.kernels import Circulator, Kernel, Rule, all_kernels, circulator, kernel, rule
+from halfmesh._jit.kernels import Circulator, Kernel, Rule, all_kernels, circulator, declared, kernel, rule
 from halfmesh._jit.threads import n_threads, parallel
 
 __all__ = [
@@ -38,6 +38,7 @@ __all__ = [
     "circulator",
     "compiling_always",
     "declare_carrier",
+    "declared",
     "kernel",
     "n_threads",
     "parallel",

@@ -5,7 +5,7 @@ from __future__ import annotations
 import functools
 import types
 from collections.abc import Callable, Iterator
-from typing import Any, Generic, ParamSpec, TypeVar
+from typing import Any, Generic, NoReturn, ParamSpec, TypeVar
 
 import numpy as np
 
@@ -14,7 +14,7 @@ from halfmesh._jit.arguments import Views, arrays, interpretable, lowered, refre
 from halfmesh._jit.compiler import Compilable, dispatcher
 from halfmesh._jit.loops import inlined, misspelled, unrolled
 
-__all__ = ["Circulator", "Kernel", "Rule", "all_kernels", "circulator", "kernel", "rule"]
+__all__ = ["Circulator", "Kernel", "Rule", "all_kernels", "circulator", "declared", "kernel", "rule"]
 
 P = ParamSpec("P")
 R = TypeVar("R")
@@ -288,6 +288,11 @@ def circulator(
 ) -> Callable[[Callable[P, R]], Circulator[P, R]]:
     """Declare a circulator by its three rules; the decorated function gives name, parameters and documentation."""
     return lambda function: Circulator(function, start, step, value, skips)
+
+
+def declared() -> NoReturn:
+    """The body of what is declared by its rules and documented by its name: it is never run."""
+    raise AssertionError("the rules of a declaration are run, not its body")
 
 
 def _is_circulator(value: Any) -> bool:

@@ -13,7 +13,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any
 
-from halfmesh._jit import circulator, kernel
+from halfmesh._jit import circulator, declared, kernel
 from halfmesh.core.navigation import ccw_of, edge_of, face_of, next_of, opposite_face_of, origin_of, target_of, twin_of
 
 __all__ = [
@@ -54,31 +54,31 @@ def face_start(t: Any, f: int) -> int:
 @circulator(start=ring_start, step=ccw_of)
 def outgoing(t: Any, v: int) -> Iterator[int]:
     """The halfedges that leave `v`, counter-clockwise."""
-    raise NotImplementedError
+    declared()
 
 
 @circulator(start=ring_start, step=ccw_of, value=twin_of)
 def incoming(t: Any, v: int) -> Iterator[int]:
     """The halfedges that arrive at `v`, counter-clockwise."""
-    raise NotImplementedError
+    declared()
 
 
 @circulator(start=ring_start, step=ccw_of, value=target_of)
 def neighbors(t: Any, v: int) -> Iterator[int]:
     """The vertices at the other ends of the edges of `v`, counter-clockwise; twice where an edge is double."""
-    raise NotImplementedError
+    declared()
 
 
 @circulator(start=ring_start, step=ccw_of, value=edge_of)
 def edges_around(t: Any, v: int) -> Iterator[int]:
     """The edges of `v`, counter-clockwise."""
-    raise NotImplementedError
+    declared()
 
 
 @circulator(start=ring_start, step=ccw_of, value=face_of, skips=True)
 def faces_around(t: Any, v: int) -> Iterator[int]:
     """The faces that have a corner at `v`, counter-clockwise; gaps are left out."""
-    raise NotImplementedError
+    declared()
 
 
 # -- along a loop ------------------------------------------------------------------------------------------------
@@ -87,28 +87,28 @@ def faces_around(t: Any, v: int) -> Iterator[int]:
 @circulator(start=loop_start, step=next_of)
 def loop(t: Any, h: int) -> Iterator[int]:
     """The halfedges of the face or the boundary loop that `h` belongs to, from `h` along next."""
-    raise NotImplementedError
+    declared()
 
 
 @circulator(start=face_start, step=next_of)
 def face_halfedges(t: Any, f: int) -> Iterator[int]:
     """The halfedges of face `f`, counter-clockwise from its first corner."""
-    raise NotImplementedError
+    declared()
 
 
 @circulator(start=face_start, step=next_of, value=origin_of)
 def face_vertices(t: Any, f: int) -> Iterator[int]:
     """The vertices of face `f`, as they were listed."""
-    raise NotImplementedError
+    declared()
 
 
 @circulator(start=face_start, step=next_of, value=edge_of)
 def face_edges(t: Any, f: int) -> Iterator[int]:
     """The edges of face `f`."""
-    raise NotImplementedError
+    declared()
 
 
 @circulator(start=face_start, step=next_of, value=opposite_face_of, skips=True)
 def face_neighbors(t: Any, f: int) -> Iterator[int]:
     """The faces across the edges of face `f`; boundary edges are left out."""
-    raise NotImplementedError
+    declared()

@@ -15,6 +15,7 @@ import math
 from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING, Any, ClassVar, Generic, NoReturn, TypeVar, overload
 
+from halfmesh._jit import declared
 from halfmesh.core import circulation, navigation
 from halfmesh.core.topology import DELETED
 from halfmesh.errors import InvalidMeshError, StaleElementError
@@ -200,7 +201,7 @@ class Vertex(Element):
     @step(navigation.halfedge_of_vertex, "halfedge")
     def halfedge(self) -> Halfedge | None:
         """A halfedge that leaves the vertex, an exterior one if there is any; None if it is isolated."""
-        raise NotImplementedError
+        declared()
 
     @property
     def point(self) -> NDArray[np.float64]:
@@ -261,47 +262,47 @@ class Halfedge(Element):
     @step(navigation.twin_of, "halfedge", reads=False)
     def twin(self) -> Halfedge:
         """The other halfedge of the same edge."""
-        raise NotImplementedError
+        declared()
 
     @step(navigation.next_of, "halfedge")
     def next(self) -> Halfedge:
         """The one after it around its face or boundary loop."""
-        raise NotImplementedError
+        declared()
 
     @step(navigation.prev_of, "halfedge")
     def prev(self) -> Halfedge:
         """The one before it around its face or boundary loop."""
-        raise NotImplementedError
+        declared()
 
     @step(navigation.ccw_of, "halfedge")
     def ccw(self) -> Halfedge:
         """The next one counter-clockwise around its origin: twin(prev)."""
-        raise NotImplementedError
+        declared()
 
     @step(navigation.cw_of, "halfedge")
     def cw(self) -> Halfedge:
         """The next one clockwise around its origin: next(twin)."""
-        raise NotImplementedError
+        declared()
 
     @step(navigation.origin_of, "vertex")
     def origin(self) -> Vertex:
         """The vertex that it leaves."""
-        raise NotImplementedError
+        declared()
 
     @step(navigation.target_of, "vertex")
     def target(self) -> Vertex:
         """The vertex that it arrives at."""
-        raise NotImplementedError
+        declared()
 
     @step(navigation.face_of, "face")
     def face(self) -> Face | None:
         """The face on its left; None if it is exterior."""
-        raise NotImplementedError
+        declared()
 
     @step(navigation.edge_of, "edge", reads=False)
     def edge(self) -> Edge:
         """The edge that it is a side of."""
-        raise NotImplementedError
+        declared()
 
     @property
     def is_exterior(self) -> bool:
@@ -333,7 +334,7 @@ class Edge(Element):
     @step(navigation.halfedge_of_edge, "halfedge", reads=False)
     def halfedge(self) -> Halfedge:
         """Its first halfedge, ``2 * index``."""
-        raise NotImplementedError
+        declared()
 
     @property
     def vertices(self) -> tuple[Vertex, Vertex]:
@@ -371,7 +372,7 @@ class Face(Element):
     @step(navigation.halfedge_of_face, "halfedge")
     def halfedge(self) -> Halfedge:
         """One of its halfedges: that of the first listed corner, in a mesh made from a face list."""
-        raise NotImplementedError
+        declared()
 
     @property
     def degree(self) -> int:
