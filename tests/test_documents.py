@@ -6,6 +6,7 @@ import doctest
 import io
 import re
 import runpy
+import tomllib
 from pathlib import Path
 
 import pytest
@@ -91,3 +92,11 @@ def test_loop_in_the_guide_is_the_one_of_the_example(example: str) -> None:
         loop for loop in re.findall(r"```python\n(@hm.kernel\n.*?)```", page, re.DOTALL) if loop.strip() in program
     ]
     assert len(loops) == 1
+
+
+def test_extra_for_benchmarks_names_what_they_compare_with() -> None:
+    from benchmarks.environment import LIBRARIES
+
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    compared = {name for peer, library in LIBRARIES.items() if peer != "halfmesh" for name in library.install}
+    assert set(project["optional-dependencies"]["bench"]) == compared
