@@ -146,11 +146,12 @@ def _crowded_edges(faces: FaceList, origin: Ints, target: Ints, face_of: Ints) -
     n = max(faces.n_vertices, 1)
     edge = np.minimum(origin, target) * n + np.maximum(origin, target)
     order = np.argsort(edge, kind="stable")
-    starts = np.flatnonzero(np.r_[True, edge[order][1:] != edge[order][:-1]])
+    in_order = edge[order]
+    starts = np.flatnonzero(np.r_[True, in_order[1:] != in_order[:-1]])
     uses = np.diff(np.r_[starts, len(order)])
     crowded = uses > 2
     if crowded.any():
-        return _too_many_faces(edge[order][starts[crowded]], n, order, starts[crowded], uses[crowded], face_of)
+        return _too_many_faces(in_order[starts[crowded]], n, order, starts[crowded], uses[crowded], face_of)
     first = order[starts[uses == 2]]
     second = order[starts[uses == 2] + 1]
     same = origin[first] == origin[second]
@@ -162,7 +163,7 @@ def _crowded_edges(faces: FaceList, origin: Ints, target: Ints, face_of: Ints) -
 
 def _too_many_faces(keys: Ints, n: int, order: Ints, starts: Ints, uses: Ints, face_of: Ints) -> InvalidMeshError:
     edges = np.stack([keys // n, keys % n], axis=1)
-    of_edge = [np.sort(face_of[order[s : s + k]]) for s, k in zip(starts[:SHOWN], uses[:SHOWN], strict=True)]
+    of_edge = [face_of[order[s : s + k]] for s, k in zip(starts[:SHOWN], uses[:SHOWN], strict=True)]
     shown = [f"{a}-{b} ({listed(f, 'faces ')})" for (a, b), f in zip(edges[:SHOWN], of_edge, strict=True)]
     all_uses = np.repeat(starts, uses) + _ramp(uses)
     return InvalidMeshError(
