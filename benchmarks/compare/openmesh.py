@@ -8,6 +8,7 @@ import numpy as np
 import openmesh as om
 
 from benchmarks.compare.peer import Array, Peer, Surface, Way, Ways, counted, summed, triangles
+from benchmarks.timing import NotOfferedError
 
 
 class OpenMesh(Peer):
@@ -17,7 +18,7 @@ class OpenMesh(Peer):
     def builds(self, surface: Surface) -> Ways:
         note = "half-edge mesh"
         if isinstance(surface.faces, tuple):
-            raise NotImplementedError("takes polygons as padded rows only")
+            raise NotOfferedError("takes polygons as padded rows only")
         kind = om.TriMesh if surface.faces.shape[1] == 3 else om.PolyMesh
         return {
             kind.__name__: Way(

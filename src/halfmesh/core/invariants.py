@@ -169,43 +169,34 @@ def gaps_are_found_at_once(t: Topology) -> Bad:
 
 def one_ring_holds_all_of_a_vertex(t: Topology) -> Bad:
     """Turning ccw from halfedge(v) meets every halfedge that leaves v, once."""
-    degree = np.bincount(origin_of(t, _halfedges(t)), minlength=max(len(t.vertex_halfedge), 1)).astype(np.int32)
-    bad = np.zeros(max(len(degree), 1), dtype=np.uint8)
-    _ring_sizes.at(len(t.next))(t, degree, bad)
-    return np.flatnonzero(bad)
-
-
-@kernel
-def _ring_sizes(t: Any, degree: Any, bad: Any) -> None:
-    for v in range(t.counts[0]):
-        start = t.vertex_halfedge[v]
-        if start >= 0:
-            h, n = ccw_of(t, start), 1
-            while h != start and n <= degree[v]:
-                h = ccw_of(t, h)
-                n += 1
-            bad[v] = n != degree[v]
+    halfedges = np.arange(len(t.next), dtype=np.int32)
+    return _broken_orbits(t.vertex_halfedge, ccw_of(t, halfedges), origin_of(t, _halfedges(t)))
 
 
 def one_loop_holds_all_of_a_face(t: Topology) -> Bad:
     """Following next from halfedge(f) meets every halfedge of f, once."""
-    h = _halfedges(t)
-    degree = np.bincount(face_of(t, h)[face_of(t, h) >= 0], minlength=max(len(t.face_halfedge), 1)).astype(np.int32)
-    bad = np.zeros(max(len(degree), 1), dtype=np.uint8)
-    _loop_sizes.at(len(t.next))(t, degree, bad)
+    f = face_of(t, _halfedges(t))
+    return _broken_orbits(t.face_halfedge, t.next, f[f >= 0])
+
+
+def _broken_orbits(starts: Any, follower: Any, members: Any) -> Bad:
+    """The elements whose orbit from `starts` along `follower` does not close after as many steps as it has members."""
+    sizes = np.bincount(members, minlength=max(len(starts), 1)).astype(np.int32)
+    bad = np.zeros(len(sizes), dtype=np.uint8)
+    _walk_orbits.at(len(follower))(np.array(starts), np.array(follower), sizes, bad)
     return np.flatnonzero(bad)
 
 
 @kernel
-def _loop_sizes(t: Any, degree: Any, bad: Any) -> None:
-    for f in range(t.counts[2]):
-        start = t.face_halfedge[f]
+def _walk_orbits(starts: Any, follower: Any, sizes: Any, bad: Any) -> None:
+    for x in range(len(starts)):
+        start = starts[x]
         if start >= 0:
-            h, n = next_of(t, start), 1
-            while h != start and n <= degree[f]:
-                h = next_of(t, h)
+            h, n = follower[start], 1
+            while h != start and n <= sizes[x]:
+                h = follower[h]
                 n += 1
-            bad[f] = n != degree[f]
+            bad[x] = n != sizes[x]
 
 
 def counts_are_true(t: Topology) -> Bad:

@@ -5,8 +5,7 @@ Each step delegates to one rule of `core.navigation`, interpreted over memoryvie
 step would cost ten times the step itself.
 
 A step on a deleted element raises :class:`StaleElementError`, at no cost in the good case: all columns of a deleted
-element hold a negative mark, and when indices move, the columns that old handles look at are replaced by ones that
-refuse.
+element hold a negative mark, and what reads a mark refuses. (Nothing deletes yet; the marks are law already.)
 """
 
 from __future__ import annotations
