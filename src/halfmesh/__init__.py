@@ -49,6 +49,16 @@ from halfmesh.core.navigation import (
     twin_of,
     vertex_slots,
 )
+from halfmesh.core.operators.collapses import collapse, collapse_status
+from halfmesh.core.operators.flips import flip, flip_status
+from halfmesh.core.operators.splits import (
+    connect,
+    connect_status,
+    join_faces,
+    join_faces_status,
+    split_edge,
+    split_face,
+)
 from halfmesh.errors import (
     ElementError,
     FormatError,
@@ -97,6 +107,10 @@ __all__ = [
     "TopologyError",
     "Vertex",
     "ccw_of",
+    "collapse",
+    "collapse_status",
+    "connect",
+    "connect_status",
     "cw_of",
     "edge_of",
     "edge_slots",
@@ -108,6 +122,8 @@ __all__ = [
     "face_slots",
     "face_vertices",
     "faces_around",
+    "flip",
+    "flip_status",
     "geometry",
     "halfedge_of_edge",
     "halfedge_of_face",
@@ -119,6 +135,8 @@ __all__ = [
     "is_boundary_vertex",
     "is_exterior",
     "is_isolated",
+    "join_faces",
+    "join_faces_status",
     "kernel",
     "load",
     "loop",
@@ -130,6 +148,8 @@ __all__ = [
     "prev_of",
     "save",
     "shapes",
+    "split_edge",
+    "split_face",
     "target_of",
     "testing",
     "twin_of",

@@ -60,7 +60,24 @@ class InvalidMeshError(HalfmeshError, ValueError):
 
 
 class TopologyError(HalfmeshError, ValueError):
-    """The operation would break the mesh; nothing was changed."""
+    """The operation would break the mesh; nothing was changed.
+
+    Attributes
+    ----------
+    reason : str
+        A stable one-word name of what stands against it, e.g. ``"would_be_parallel"``.
+    """
+
+    def __init__(self, message: str, *, reason: str = "refused") -> None:
+        super().__init__(message)
+        self.reason = reason
+
+    def __reduce__(self) -> tuple[object, ...]:
+        return _restore_topology_error, (str(self), self.reason)
+
+
+def _restore_topology_error(message: str, reason: str) -> TopologyError:
+    return TopologyError(message, reason=reason)
 
 
 class PreconditionError(HalfmeshError, ValueError):

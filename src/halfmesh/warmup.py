@@ -20,7 +20,10 @@ import numpy as np
 
 import halfmesh as hm
 from halfmesh import _jit
+from halfmesh.core.operators import building
+from halfmesh.core.pens import rewind
 from halfmesh.core.search import find_halfedge
+from halfmesh.core.slots import reserve
 
 __all__ = ["jobs", "kernels_of", "n_compiled_here", "n_from_cache", "never_compiled", "warm_up"]
 
@@ -71,6 +74,7 @@ def jobs() -> list[Job]:
         ("writing and reading OFF", lambda folder: _there_and_back(folder / "mesh.off")),
         ("writing and reading OBJ", lambda folder: _there_and_back(folder / "mesh.obj")),
         ("reading OFF in other forms", _read_other_forms),
+        ("changing", lambda _: _change()),
         ("walking in kernels", lambda _: _walk(hm.shapes.cube(), 0)),
         ("smoothing", lambda _: _smooth()),
     ]
@@ -138,6 +142,54 @@ def _read_other_forms(folder: Path) -> None:
     (folder / "binary.off").write_bytes(b"OFF BINARY\n" + b"".join(big))
     for name in ("stream.off", "binary.off"):
         hm.load(folder / name)
+
+
+def _change() -> None:
+    """Every operator, with attributes of all kinds that follow, and of each form that policies are compiled for."""
+    mesh = hm.shapes.icosphere(1)
+    for table in (mesh.vertex_data, mesh.halfedge_data, mesh.edge_data, mesh.face_data):
+        table.add("x", float)
+        table.add("label", int)
+    for operator in (
+        lambda: mesh.flip(0),
+        lambda: mesh.split_edge(0),
+        lambda: mesh.split_face(0),
+        lambda: mesh.join_faces(mesh.connect(mesh.faces[1].halfedge, mesh.faces[1].halfedge.next, allow_parallel=True)),
+        lambda: mesh.collapse(next(h for h in mesh.halfedges if mesh.can_collapse(h))),
+        lambda: (mesh.can_flip(0), mesh.can_connect(0, 0), mesh.can_join_faces(0)),
+    ):
+        operator()
+    _build_by_hand()
+    _grow(mesh.vertex_data.column("points"), 100)
+    mesh.compact()
+    rewind(mesh, 0)
+    reserve(mesh, 1, 1, 1)
+
+
+def _build_by_hand() -> None:
+    mesh = hm.Mesh([])
+    for _ in range(6):
+        mesh.add_vertex()
+    edges = [mesh.add_edge(0, 1), mesh.add_edge(1, 2), mesh.add_edge(2, 0)]
+    mesh.add_face(halfedges=[e.halfedge for e in edges])
+    mesh.add_face([3, 4, 5])
+    mesh.make_adjacent(mesh.halfedges[1], mesh.halfedges[1].next)
+    mesh.remove_face(0)
+    mesh.remove_edge(0)
+    mesh.remove_vertex(3)
+    for kernel, *arguments in (
+        (building.add_edge_status, 0, 1),
+        (building.make_adjacent_status, 2, 2),
+        (building.find_free_incident, 1),
+        (building.find_free_between, 1, 2, 2),
+        (building.add_edge_in, 2, 2),
+    ):
+        kernel(mesh, *arguments)
+
+
+@hm.kernel
+def _grow(points: Any, n: int) -> None:
+    points[n, 0] = points[0, 0]
 
 
 @hm.kernel

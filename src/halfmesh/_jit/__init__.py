@@ -20,10 +20,22 @@ Numba structref; in interpreted code it is an ordinary object with the same attr
     loops . fingerprint . arguments . threads . gears
 """
 
-from halfmesh._jit.arguments import Carrier, Views, view
-from halfmesh._jit.compiler import CarrierType, cache_folder, declare_carrier
+from halfmesh._jit.arguments import Carrier, Views, array_of, view
+from halfmesh._jit.compiler import CarrierType, apart, cache_folder, declare_carrier
 from halfmesh._jit.gears import compiling_always
-from halfmesh._jit.kernels import Circulator, Kernel, Rule, all_kernels, circulator, declared, kernel, rule
+from halfmesh._jit.kernels import (
+    Circulator,
+    Kernel,
+    Rule,
+    all_kernels,
+    circulator,
+    declared,
+    inline_kernel,
+    kernel,
+    rule,
+    twofold,
+)
+from halfmesh._jit.room import filled, grown
 from halfmesh._jit.threads import n_threads, parallel
 
 __all__ = [
@@ -34,14 +46,20 @@ __all__ = [
     "Rule",
     "Views",
     "all_kernels",
+    "apart",
+    "array_of",
     "cache_folder",
     "circulator",
     "compiling_always",
     "declare_carrier",
     "declared",
+    "filled",
+    "grown",
+    "inline_kernel",
     "kernel",
     "n_threads",
     "parallel",
     "rule",
+    "twofold",
     "view",
 ]

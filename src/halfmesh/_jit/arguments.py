@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from typing import Any, Protocol
 
+import numpy as np
+
 from halfmesh._jit import gears
 
-__all__ = ["Carrier", "Views", "arrays", "interpretable", "lowered", "refresh", "view"]
+__all__ = ["Carrier", "Views", "announce", "array_of", "arrays", "interpretable", "lowered", "refresh", "view"]
 
 
 class Views:
@@ -25,8 +27,11 @@ class Carrier(Protocol):
     def __arrays__(self) -> Any:
         """An object whose attributes are NumPy arrays."""
 
-    def __refresh__(self) -> None:
-        """Called after a compiled kernel: take the arrays anew if it made them larger."""
+    def __announce__(self, args: tuple[Any, ...]) -> None:
+        """Called before a kernel runs on these arguments, of which this is one."""
+
+    def __refresh__(self, args: tuple[Any, ...], compiled: bool) -> None:
+        """Called after the kernel: take the arrays anew, from the gear that ran, if it made them larger."""
 
 
 def lowered(argument: Any) -> Any:
@@ -41,9 +46,16 @@ def arrays(argument: Any) -> Any:
     return argument.__arrays__() if hasattr(argument, "__arrays__") else argument
 
 
-def refresh(argument: Any) -> None:
-    if hasattr(argument, "__refresh__"):
-        argument.__refresh__()
+def announce(args: tuple[Any, ...]) -> None:
+    for argument in args:
+        if hasattr(argument, "__announce__"):
+            argument.__announce__(args)
+
+
+def refresh(args: tuple[Any, ...], *, compiled: bool) -> None:
+    for argument in args:
+        if hasattr(argument, "__refresh__"):
+            argument.__refresh__(args, compiled)
 
 
 class _StrictView:
@@ -73,3 +85,8 @@ class _StrictView:
 def view(array: Any) -> Any:
     """The interpreted gear's form of an array: elements are plain ints and floats."""
     return _StrictView(array) if gears.strict else memoryview(array)
+
+
+def array_of(view: Any) -> Any:
+    """The array behind a view, sharing its memory."""
+    return np.asarray(view._view if isinstance(view, _StrictView) else view)

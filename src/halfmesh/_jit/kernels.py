@@ -10,11 +10,22 @@ from typing import Any, Generic, NoReturn, ParamSpec, TypeVar
 import numpy as np
 
 from halfmesh._jit import gears
-from halfmesh._jit.arguments import Views, arrays, interpretable, lowered, refresh, view
-from halfmesh._jit.compiler import Compilable, dispatcher
+from halfmesh._jit.arguments import Views, announce, arrays, interpretable, lowered, refresh, view
+from halfmesh._jit.compiler import Compilable, dispatcher, entry_point
 from halfmesh._jit.loops import inlined, misspelled, unrolled
 
-__all__ = ["Circulator", "Kernel", "Rule", "all_kernels", "circulator", "declared", "kernel", "rule"]
+__all__ = [
+    "Circulator",
+    "Kernel",
+    "Rule",
+    "all_kernels",
+    "circulator",
+    "declared",
+    "inline_kernel",
+    "kernel",
+    "rule",
+    "twofold",
+]
 
 P = ParamSpec("P")
 R = TypeVar("R")
@@ -47,13 +58,13 @@ class Kernel(Compilable, Generic[P, R]):
         return self._run(self.compiled, args)
 
     def _run(self, compiled: Any, args: tuple[Any, ...]) -> R:
+        announce(args)
         try:
             result: R = compiled(*[lowered(a) for a in args])
         except Exception as error:
             self._explain(error)
             raise
-        for a in args:
-            refresh(a)
+        refresh(args, compiled=True)
         return result
 
     def _explain(self, error: Exception) -> None:
@@ -93,8 +104,25 @@ class Kernel(Compilable, Generic[P, R]):
 
     def interpreted(self, *args: P.args, **kwargs: P.kwargs) -> R:
         """Run in plain Python, on the same objects: set a breakpoint, print, step."""
+        return self._interpret([interpretable(a) for a in args], args, kwargs)
+
+    def _interpret(self, forms: list[Any], args: tuple[Any, ...], kwargs: dict[str, Any] | None = None) -> R:
         plain: Any = self.plain
-        return plain(*[interpretable(a) for a in args], **kwargs)  # type: ignore[no-any-return]
+        announce(args)
+        try:
+            return plain(*forms, **(kwargs or {}))  # type: ignore[no-any-return]
+        finally:
+            refresh(args, compiled=False)
+
+    def entry(self, *args: Any) -> Callable[..., Any] | None:
+        """The compiled code for arguments of these types, to be called with lowered ones; None if there is none yet.
+
+        The caller does what a call does besides: typing, lowering, refreshing. That is three quarters of a short call.
+        """
+        if "compiled" not in self.__dict__ or gears.interpret_only:
+            return None
+        found: Callable[..., Any] | None = entry_point(self.compiled, args)
+        return found
 
     def at(self, n: int) -> Callable[P, R]:
         """The gear that suits an input of `n` elements; it decides only while this kernel has not been compiled.
@@ -113,8 +141,7 @@ class Kernel(Compilable, Generic[P, R]):
 
     def _quick(self, *args: Any) -> R:
         """Interpreted over memoryviews: elements are plain ints and floats, twice as fast as NumPy scalars."""
-        plain: Any = self.plain
-        return plain(*[view(a) if isinstance(a, np.ndarray) else interpretable(a) for a in args])  # type: ignore[no-any-return]
+        return self._interpret([view(a) if isinstance(a, np.ndarray) else interpretable(a) for a in args], args)
 
     def __kernel_sources__(self) -> tuple[types.FunctionType, ...]:
         return (self.py_func,)
@@ -124,6 +151,15 @@ class Kernel(Compilable, Generic[P, R]):
 
     def __reduce__(self) -> str:
         return self.__qualname__
+
+
+class InlineKernel(Kernel[P, R]):
+    """A kernel whose compiled code is written into every caller."""
+
+    @functools.cached_property
+    def compiled(self) -> Any:
+        """The dispatcher; always inlined."""
+        return dispatcher(self.py_func, inline=True, salt="inline")
 
 
 class Rule(Kernel[P, R]):
@@ -182,6 +218,25 @@ def kernel(function: Callable[P, R]) -> Kernel[P, R]:
     array([3, 3, 3, 3, 3, 3, 3, 3])
     """
     return Kernel(function)
+
+
+def twofold(interpreted: Callable[..., Any]) -> Callable[[Callable[P, R]], Kernel[P, R]]:
+    """Declare a kernel whose interpreted form is another function: for the few that must know their gear."""
+
+    def declare(function: Callable[P, R]) -> Kernel[P, R]:
+        made = Kernel(function)
+        made.plain = interpreted
+        return made
+
+    return declare
+
+
+def inline_kernel(function: Callable[P, R]) -> Kernel[P, R]:
+    """Declare a small kernel that is written into every caller: where a call costs more than what it does.
+
+    A call of compiled code counts references to the carrier, atomically: 5-10 ns, five times what a pen writes in.
+    """
+    return InlineKernel(function)
 
 
 def rule(function: Callable[P, R]) -> Rule[P, R]:

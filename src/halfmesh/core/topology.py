@@ -22,19 +22,26 @@ import numpy as np
 from numpy.typing import NDArray
 
 from halfmesh import _jit
+from halfmesh.errors import StaleElementError
 
 __all__ = [
     "COLUMNS",
     "DELETED",
     "EDGE_SLOTS",
     "FACE_SLOTS",
+    "HAS_NOTES",
+    "JOURNALING",
+    "JOURNAL_SIZE",
     "LIMIT",
+    "NEWS",
+    "NOTES_SIZE",
+    "NOTING",
     "N_DEAD_EDGES",
     "N_DEAD_FACES",
     "N_DEAD_VERTICES",
     "N_EXTERIOR",
+    "REPLACED",
     "REVISION",
-    "STORAGE",
     "VERTEX_SLOTS",
     "Arrays",
     "Topology",
@@ -51,17 +58,23 @@ VERTEX_SLOTS, EDGE_SLOTS, FACE_SLOTS = 0, 1, 2  # slots in use, deleted elements
 N_DEAD_VERTICES, N_DEAD_EDGES, N_DEAD_FACES = 3, 4, 5
 N_EXTERIOR = 6  # living halfedges without a face
 REVISION = 7  # raised by every topological change
-STORAGE = 8  # raised whenever a column is replaced by a larger one
-N_COUNTS = 9
+NEWS = 8  # what Python must look at when a kernel returns: REPLACED, HAS_NOTES, or both
+JOURNALING, JOURNAL_SIZE = 9, 10  # whether every write is journaled, for a transaction, and the entries so far
+NOTING, NOTES_SIZE = 11, 12  # the kinds of element whose attributes follow by notes, and the ints noted so far
+N_COUNTS = 13
+
+REPLACED, HAS_NOTES = 1, 2  # a column was replaced by a larger one; there are notes
 
 COLUMNS = ("next", "prev", "origin", "face", "vertex_halfedge", "face_halfedge", "counts")
-_CARRIER = _jit.declare_carrier("Topology", COLUMNS)
+SCRATCH = ("journal", "notes", "weights")  # see `journal` and `notes`
+FIELDS = COLUMNS + SCRATCH
+_CARRIER = _jit.declare_carrier("Topology", FIELDS)
 
 
 class Arrays:
     """The columns as NumPy arrays, at their full capacity: what the vectorised gear reads and the builders write."""
 
-    __slots__ = COLUMNS
+    __slots__ = FIELDS
 
     next: Ints
     prev: Ints
@@ -70,6 +83,12 @@ class Arrays:
     vertex_halfedge: Ints
     face_halfedge: Ints
     counts: NDArray[np.int64]
+    journal: NDArray[np.int64]
+    notes: Ints
+    weights: NDArray[np.float64]
+
+    def __init__(self) -> None:
+        self.journal, self.notes, self.weights = np.zeros(2, np.int64), np.zeros(2, np.int32), np.zeros(2)
 
 
 class Topology:
@@ -78,18 +97,26 @@ class Topology:
     The arrays are views without a copy. They are stale after the mesh has grown: take them afresh.
     """
 
-    __slots__ = ("_arrays", "_proxy", "_storage", "_views")
+    __slots__ = ("_arrays", "_proxy", "_views", "owner")
 
     def __init__(self, arrays: Arrays) -> None:
         self._views = _jit.Views()
         self._proxy: Any = None
+        self.owner: Any = None  # gives the mesh whose attributes follow the changes, if there is one
         self._adopt(arrays)
 
     def _adopt(self, arrays: Arrays) -> None:
         self._arrays = arrays
-        self._storage = int(arrays.counts[STORAGE])
-        for name in COLUMNS:
+        for name in FIELDS:
             setattr(self._views, name, _jit.view(getattr(arrays, name)))
+
+    def _replace(self, arrays: Arrays) -> None:
+        """Take other columns, in which elements have other indices: the old carrier is left to the old handles."""
+        for name in FIELDS:
+            setattr(self._views, name, _GONE)
+        arrays.counts[NEWS] = 0
+        self._views, self._proxy = _jit.Views(), None
+        self._adopt(arrays)
 
     # -- the columns in use --------------------------------------------------------------------------------------
 
@@ -147,6 +174,7 @@ class Topology:
         for name in COLUMNS[:-1]:
             setattr(arrays, name, _with_room(getattr(self, name).copy()))
         arrays.counts = self._arrays.counts.copy()
+        arrays.counts[NEWS:] = 0  # a copy is in no transaction
         return Topology(arrays)
 
     def __getstate__(self) -> dict[str, Any]:
@@ -156,6 +184,7 @@ class Topology:
         arrays = Arrays()
         for name in COLUMNS:
             setattr(arrays, name, _with_room(state[name]))
+        arrays.counts[NEWS:] = 0
         self.__init__(arrays)  # type: ignore[misc]
 
     def __repr__(self) -> str:
@@ -172,15 +201,35 @@ class Topology:
 
     def __compiled__(self) -> Any:
         if self._proxy is None:
-            self._proxy = _CARRIER.make(*(getattr(self._arrays, name) for name in COLUMNS))
+            self._proxy = _CARRIER.make(*(getattr(self._arrays, name) for name in FIELDS))
         return self._proxy
 
-    def __refresh__(self) -> None:
-        if self._slots(STORAGE) != self._storage:
-            arrays = Arrays()
-            for name, column in zip(COLUMNS, _CARRIER.take(self._proxy), strict=True):
-                setattr(arrays, name, column)
-            self._adopt(arrays)
+    def __announce__(self, args: tuple[Any, ...]) -> None:
+        mesh = self.owner and self.owner()
+        if mesh is not None:
+            mesh._announce(args)
+
+    def __refresh__(self, args: tuple[Any, ...], compiled: bool) -> None:
+        if self._slots(NEWS):
+            self.catch_up(compiled)
+        mesh = self.owner and self.owner()
+        if mesh is not None:
+            mesh._follow(args)
+
+    def catch_up(self, compiled: bool) -> None:
+        """Take the columns anew from the gear that has replaced some of them by larger ones."""
+        if self._slots(NEWS) & REPLACED == 0:
+            return
+        arrays = Arrays()
+        if compiled:
+            columns = _CARRIER.take(self._proxy)
+        else:
+            columns = tuple(_jit.array_of(getattr(self._views, name)) for name in FIELDS)
+            self._proxy = None
+        for name, column in zip(FIELDS, columns, strict=True):
+            setattr(arrays, name, column)
+        self._adopt(arrays)
+        arrays.counts[NEWS] &= ~REPLACED
 
 
 def empty_columns(n_vertices: int, n_edges: int, n_faces: int) -> Arrays:
@@ -200,3 +249,15 @@ def empty_columns(n_vertices: int, n_edges: int, n_faces: int) -> Arrays:
 def _with_room(column: NDArray[Any]) -> NDArray[Any]:
     """A column is never empty: the branch-free rules may look at its first element."""
     return column if len(column) else np.full(2, -1, dtype=column.dtype)
+
+
+class _Gone:
+    """What stands in the place of the columns after elements have changed their indices: every look is refused."""
+
+    def __getitem__(self, key: Any) -> Any:
+        raise StaleElementError("the elements have other indices since the mesh was compacted; take the handle anew")
+
+    __setitem__: Any = __getitem__
+
+
+_GONE = _Gone()

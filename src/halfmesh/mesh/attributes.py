@@ -15,25 +15,49 @@ from numpy.typing import ArrayLike, DTypeLike, NDArray
 
 from halfmesh import _jit
 from halfmesh.errors import InvalidMeshError
+from halfmesh.mesh.policies import Policy, checked_policy, default_policy, replay
 
 __all__ = ["AttributeTable", "Column"]
 
-_CARRIER = _jit.declare_carrier("Column", ("values",))
+_CARRIER = _jit.declare_carrier("Column", ("values", "default"), growing=_jit.filled)
 
 
 class Column:
-    """One attribute of one kind of element; kernels take it as an object with the array ``values``."""
+    """One attribute of one kind of element, as a kernel takes it that gives values to elements it makes.
 
-    __slots__ = ("_proxy", "default", "values")
+    In the kernel ``column[i]`` is the value of element `i`, and ``column[i] = x`` or ``column[i, k] = x`` sets it; a
+    column that is too short grows by itself. ``column.values`` is the array, which may be longer than there are
+    elements: the quickest, for elements that were there before.
+    """
 
-    def __init__(self, values: NDArray[Any], default: Any = 0) -> None:
+    __slots__ = ("_proxy", "default", "policy", "values")
+
+    def __init__(self, values: NDArray[Any], default: Any = 0, policy: Policy | None = None) -> None:
         self.values = values
-        self.default = default
+        self.default = np.empty((1, *values.shape[1:]), values.dtype)
+        self.default[...] = default
+        self.policy = default_policy(values.dtype) if policy is None else checked_policy(policy, values.dtype)
         self._proxy: Any = None
 
     def copy(self, n: int) -> Column:
         """A column with the first n values."""
-        return Column(self.values[:n].copy(), self.default)
+        self.reach(n)
+        return Column(self.values[:n].copy(), self.default, self.policy)
+
+    def reach(self, n: int) -> None:
+        """Make the column at least as long, with new values at the default."""
+        if n > len(self.values):
+            made = np.empty((max(n, 2 * len(self.values), 16), *self.values.shape[1:]), self.values.dtype)
+            made[: len(self.values)] = self.values
+            made[len(self.values) :] = self.default
+            self.values, self._proxy = made, None
+
+    def __getitem__(self, key: Any) -> Any:
+        return self.values[key]
+
+    def __setitem__(self, key: Any, value: Any) -> None:
+        self.reach((key[0] if isinstance(key, tuple) else key) + 1)
+        self.values[key] = value
 
     def __views__(self) -> Column:
         return self
@@ -43,16 +67,17 @@ class Column:
 
     def __compiled__(self) -> Any:
         if self._proxy is None:
-            self._proxy = _CARRIER.make(self.values)
+            self._proxy = _CARRIER.make(self.values, self.default)
         return self._proxy
 
-    def __refresh__(self) -> None:
-        (values,) = _CARRIER.take(self._proxy)
-        if values.ctypes.data != self.values.ctypes.data:
-            self.values = values
+    def __refresh__(self, args: tuple[Any, ...], compiled: bool) -> None:
+        if compiled:
+            values = _CARRIER.take(self._proxy)[0]
+            if values.ctypes.data != self.values.ctypes.data:
+                self.values = values
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return Column, (self.values, self.default)
+        return Column, (self.values, self.default, self.policy)
 
 
 class AttributeTable(MutableMapping[str, NDArray[Any]]):
@@ -73,14 +98,27 @@ class AttributeTable(MutableMapping[str, NDArray[Any]]):
     9.0
     """
 
-    def __init__(self, kind: str, size: Callable[[], int], required: tuple[str, ...] = ()) -> None:
+    def __init__(
+        self,
+        kind: str,
+        size: Callable[[], int],
+        required: tuple[str, ...] = (),
+        tell: Callable[[bool], None] = lambda there_are: None,
+    ) -> None:
         self._kind = kind
         self._size = size
+        self._tell = tell
         self._required = required
         self._columns: dict[str, Column] = {}
 
     def add(
-        self, name: str, dtype: DTypeLike = float, shape: tuple[int, ...] = (), *, default: Any = 0
+        self,
+        name: str,
+        dtype: DTypeLike = float,
+        shape: tuple[int, ...] = (),
+        *,
+        default: Any = 0,
+        policy: Policy | None = None,
     ) -> NDArray[Any]:
         """Create an attribute.
 
@@ -94,6 +132,8 @@ class AttributeTable(MutableMapping[str, NDArray[Any]]):
             Shape of one element's value; () for a number.
         default : scalar or array of that shape
             The value of every element, and of elements that will be added.
+        policy : str or callable, optional
+            How values follow when elements are made and joined; see :attr:`policies`.
 
         Returns
         -------
@@ -104,13 +144,42 @@ class AttributeTable(MutableMapping[str, NDArray[Any]]):
         ------
         KeyError
             The name is taken.
+        ValueError
+            There is no such policy, or the dtype can't follow by it.
         """
         if name in self._columns:
             raise KeyError(f"{self._kind} data {name!r} exists already; assign to it, or delete it first")
         values = np.empty((self._size(), *shape), dtype=_checked_dtype(dtype))
         values[...] = default
-        self._set(name, Column(values, default))
+        self._set(name, Column(values, default, policy))
         return self[name]
+
+    def set_policy(self, name: str, policy: Policy) -> None:
+        """Have the attribute follow by another policy from now on.
+
+        Parameters
+        ----------
+        name : str
+        policy : str or callable
+            One of ``lerp mean copy sum min max first nearest normalize``, or a function ``f(values, weights)`` that
+            gives the value of an element from those of its sources, of shapes (n, *shape) and (n,). Floats start
+            with ``lerp``, everything else with ``copy``.
+
+        Raises
+        ------
+        KeyError
+            There is no such attribute.
+        ValueError
+            There is no such policy, or the dtype can't follow by it.
+        """
+        self[name]
+        column = self._columns[name]
+        column.policy = checked_policy(policy, column.values.dtype)
+
+    @property
+    def policies(self) -> dict[str, Policy]:
+        """The policy of each attribute."""
+        return {name: column.policy for name, column in self._columns.items()}
 
     def column(self, name: str) -> Column:
         """The attribute as something a kernel can grow: its array is ``.values``."""
@@ -122,7 +191,10 @@ class AttributeTable(MutableMapping[str, NDArray[Any]]):
         except KeyError:
             known = ", ".join(map(repr, self._columns)) or "none"
             raise KeyError(f"no {self._kind} data {name!r}; there are: {known}") from None
-        return column.values[: self._size()]
+        n = self._size()
+        if n > len(column.values):
+            column.reach(n)
+        return column.values[:n]
 
     def __setitem__(self, name: str, values: ArrayLike) -> None:
         array = np.array(values, order="C")
@@ -141,7 +213,8 @@ class AttributeTable(MutableMapping[str, NDArray[Any]]):
             raise InvalidMeshError(
                 f"{name!r} stays {old.values.dtype} of shape (n, {old.values.shape[1]})", reason="bad_attribute"
             )
-        self._set(name, Column(array, old.default if old else 0))
+        same = old is not None and (old.values.dtype, old.values.shape[1:]) == (array.dtype, array.shape[1:])
+        self._set(name, Column(array, old.default, old.policy) if old is not None and same else Column(array))
 
     def _keep(self, name: str, values: NDArray[Any]) -> None:
         """Take an array as it is, without a copy: of the right length, in C order, and held by nobody else."""
@@ -152,6 +225,7 @@ class AttributeTable(MutableMapping[str, NDArray[Any]]):
             raise KeyError(f"{name!r} always exists")
         self[name]
         del self._columns[name]
+        self._tell(bool(self._columns))
 
     def __iter__(self) -> Iterator[str]:
         return iter(self._columns)
@@ -172,6 +246,24 @@ class AttributeTable(MutableMapping[str, NDArray[Any]]):
         if not isinstance(name, str) or not name:
             raise KeyError(f"an attribute's name is a non-empty string, not {name!r}")
         self._columns[name] = column
+        self._tell(True)
+
+    def _is_followed(self, args: tuple[Any, ...]) -> bool:
+        """Whether any attribute is not among the arguments of a kernel, and so has to follow by its notes."""
+        return any(not any(column is a for a in args) for column in self._columns.values())
+
+    def _replay(self, kind: int, notes: Any, weights: Any, args: tuple[Any, ...]) -> None:
+        """Let all but the attributes that the kernel took itself follow its notes."""
+        for name, column in self._columns.items():
+            if not any(column is a for a in args):
+                replay(self[name], column.policy, kind, notes, weights)
+
+    def _permute(self, new_of_old: NDArray[np.int32]) -> None:
+        """Keep the rows of the living, after compaction."""
+        living = np.flatnonzero(new_of_old >= 0)
+        for name, column in self._columns.items():
+            column.reach(len(new_of_old))
+            self._columns[name] = Column(column.values[living], column.default, column.policy)
 
     def _columns_in_use(self) -> dict[str, Column]:
         """Copies without spare room."""
@@ -179,6 +271,7 @@ class AttributeTable(MutableMapping[str, NDArray[Any]]):
 
     def _adopt(self, columns: dict[str, Column]) -> None:
         self._columns = columns
+        self._tell(bool(columns))
 
 
 def _checked_dtype(dtype: DTypeLike) -> np.dtype[Any]:

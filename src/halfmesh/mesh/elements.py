@@ -5,7 +5,7 @@ Each step delegates to one rule of `core.navigation`, interpreted over memoryvie
 step would cost ten times the step itself.
 
 A step on a deleted element raises :class:`StaleElementError`, at no cost in the good case: all columns of a deleted
-element hold a negative mark, and what reads a mark refuses. (Nothing deletes yet; the marks are law already.)
+element hold a negative mark, and what reads a mark refuses.
 """
 
 from __future__ import annotations

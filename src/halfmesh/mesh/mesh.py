@@ -7,28 +7,34 @@ from __future__ import annotations
 
 import time
 import weakref
+from collections.abc import Callable
 from copy import deepcopy
 from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from halfmesh.core import counting, invariants, tables
+from halfmesh.core import compaction, counting, invariants, tables
 from halfmesh.core.construction import Defective, construct
 from halfmesh.core.diagnosis import explain, explain_crowded, explain_twins
 from halfmesh.core.facelist import FaceList, as_corner_data, as_face_list, as_indices
+from halfmesh.core.notes import CORNERS, EDGES, FACES, VERTICES
 from halfmesh.core.search import find_halfedge
 from halfmesh.core.topology import (
     EDGE_SLOTS,
     FACE_SLOTS,
+    HAS_NOTES,
+    NEWS,
+    NOTES_SIZE,
+    NOTING,
     VERTEX_SLOTS,
     Topology,
 )
 from halfmesh.core.wire import with_wire
 from halfmesh.errors import InvalidMeshError, PreconditionError
-from halfmesh.mesh.attributes import AttributeTable
+from halfmesh.mesh.attributes import AttributeTable, Column
 from halfmesh.mesh.collections import Collection
-from halfmesh.mesh.counts import Counted
+from halfmesh.mesh.editing import Editable
 from halfmesh.mesh.elements import Edge, Face, Halfedge, Vertex, made
 from halfmesh.mesh.summary import Summary, summarize
 
@@ -39,7 +45,7 @@ Floats = NDArray[np.float64]
 R = TypeVar("R")
 
 
-class Mesh(Counted):
+class Mesh(Editable):
     """A half-edge mesh of polygons of any degree, with wire and isolated vertices.
 
     Parameters
@@ -121,15 +127,20 @@ class Mesh(Counted):
 
     def _hold(self, topology: Topology) -> None:
         self._topology = topology
-        self._t = topology.__views__()
         self._cache: dict[str, tuple[int, Any]] = {}
-        counts = self._t.counts
-        self.vertex_data = AttributeTable("vertex", lambda: counts[VERTEX_SLOTS], required=("points",))
-        self.halfedge_data = AttributeTable("halfedge", lambda: 2 * counts[EDGE_SLOTS])
-        self.edge_data = AttributeTable("edge", lambda: counts[EDGE_SLOTS])
-        self.face_data = AttributeTable("face", lambda: counts[FACE_SLOTS])
+        counts = topology.__views__().counts
+        self.vertex_data = AttributeTable("vertex", lambda: counts[VERTEX_SLOTS], ("points",), _noted(counts, VERTICES))
+        self.halfedge_data = AttributeTable("halfedge", lambda: 2 * counts[EDGE_SLOTS], (), _noted(counts, CORNERS))
+        self.edge_data = AttributeTable("edge", lambda: counts[EDGE_SLOTS], (), _noted(counts, EDGES))
+        self.face_data = AttributeTable("face", lambda: counts[FACE_SLOTS], (), _noted(counts, FACES))
         # Nothing that the mesh holds may hold the mesh: a cycle would keep its columns until the collector comes round.
-        self._t.mesh = weakref.ref(self)
+        topology.owner = weakref.ref(self)
+        self._look_again()
+
+    def _look_again(self) -> None:
+        """Take the carrier that handles hold: at the beginning, and after elements have changed their indices."""
+        self._t = self._topology.__views__()
+        self._t.mesh = self._topology.owner
         self._t.vertex_data = self.vertex_data
 
     # -- elements ------------------------------------------------------------------------------------------------
@@ -256,6 +267,39 @@ class Mesh(Counted):
         """
         invariants.check(self._topology)
 
+    def compact(self) -> compaction.Maps:
+        """Remove what was deleted for good: the living move together, in their order, and so do their attributes.
+
+        Returns
+        -------
+        Maps
+            The new index of every old one: ``vertices``, ``halfedges``, ``edges``, ``faces``; -1 for the deleted.
+
+        Notes
+        -----
+        O(n). The only operation that changes indices: handles taken before it raise StaleElementError, arrays and
+        columns taken before it are the old ones. Nothing happens where nothing was deleted.
+
+        Examples
+        --------
+        >>> import halfmesh as hm
+        >>> mesh = hm.Mesh([[0, 1, 2], [0, 2, 3]])
+        >>> f = mesh.join_faces(mesh.find_halfedge(2, 0))
+        >>> mesh.compact().faces
+        array([ 0, -1], dtype=int32)
+        >>> len(mesh.topology.face_halfedge)
+        1
+        """
+        before = self._t
+        maps = compaction.compact(self._topology)
+        if self._topology.__views__() is not before:
+            tables = (self.vertex_data, self.halfedge_data, self.edge_data, self.face_data)
+            of_kinds = (maps.vertices, maps.halfedges, maps.edges, maps.faces)
+            for table, new_of_old in zip(tables, of_kinds, strict=True):
+                table._permute(new_of_old)
+            self._look_again()
+        return maps
+
     def copy(self) -> Mesh:
         """An independent copy with its attributes. O(n)."""
         made = object.__new__(type(self))
@@ -295,6 +339,24 @@ class Mesh(Counted):
 
     # -- a carrier: kernels take a mesh as its topology --------------------------------------------------------------
 
+    def _announce(self, args: tuple[Any, ...]) -> None:
+        """Before a kernel: have it note what the attributes that are not among its arguments need to follow."""
+        if any(isinstance(a, Column) for a in args):
+            following = (getattr(self, name)._is_followed(args) for name in _TABLES)
+            self._t.counts[NOTING] = sum(1 << place for place, is_followed in enumerate(following) if is_followed)
+
+    def _follow(self, args: tuple[Any, ...] = ()) -> None:
+        """After a kernel: let those attributes follow its notes."""
+        t = self._topology.__arrays__()
+        if t.counts[NEWS] & HAS_NOTES:
+            size = t.counts[NOTES_SIZE]
+            for place, name in enumerate(_TABLES):
+                getattr(self, name)._replay(1 << place, t.notes[:size], t.weights[:size], args)
+            t.counts[NOTES_SIZE] = 0
+            t.counts[NEWS] &= ~HAS_NOTES
+        if any(isinstance(a, Column) for a in args):
+            t.counts[NOTING] = sum(1 << place for place, name in enumerate(_TABLES) if len(getattr(self, name)))
+
     def __views__(self) -> Any:
         return self._t
 
@@ -304,8 +366,20 @@ class Mesh(Counted):
     def __compiled__(self) -> Any:
         return self._topology.__compiled__()
 
-    def __refresh__(self) -> None:
-        self._topology.__refresh__()
+    def __announce__(self, args: tuple[Any, ...]) -> None:
+        self._topology.__announce__(args)
+
+    def __refresh__(self, args: tuple[Any, ...], compiled: bool) -> None:
+        self._topology.__refresh__(args, compiled)
+
+
+def _noted(counts: Any, kind: int) -> Callable[[bool], None]:
+    """Tells the operators whether there are attributes of a kind that follow by their notes."""
+
+    def note(there_are: bool) -> None:
+        counts[NOTING] = counts[NOTING] | kind if there_are else counts[NOTING] & ~kind
+
+    return note
 
 
 _REMARKS = ("has_points", "build_seconds", "meta")

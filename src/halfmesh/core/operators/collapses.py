@@ -1,0 +1,239 @@
+"""Contracting an edge: its origin goes, its target stays."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from halfmesh._jit import kernel
+from halfmesh.core.navigation import (
+    ccw_of,
+    face_of,
+    halfedge_of_face,
+    halfedge_of_vertex,
+    next_of,
+    origin_of,
+    prev_of,
+    target_of,
+)
+from halfmesh.core.notes import CORNERS, EDGES, VERTICES, is_noting, note_copy, note_union, note_wedge
+from halfmesh.core.operators.asking import halfedge_status, is_joined, is_triangle, touches_gap
+from halfmesh.core.pens import changed, link, set_face, set_halfedge_of_face, set_halfedge_of_vertex, set_origin
+from halfmesh.core.slots import delete_edge, delete_face, delete_vertex
+from halfmesh.core.statuses import (
+    LOOP_EDGE,
+    OK,
+    SHARED_APEX,
+    SMALL_FACE,
+    WOULD_BE_PARALLEL,
+    WOULD_CLOSE_HOLE,
+    WOULD_FOLD,
+    WOULD_LEAVE_WIRE,
+    WOULD_PINCH,
+    WOULD_PINCH_FACE,
+)
+
+__all__ = ["collapse", "collapse_status", "try_collapse"]
+
+
+# -- may it? -------------------------------------------------------------------------------------------------------
+
+
+@kernel
+def collapse_status(t: Any, h: int) -> int:
+    """Whether `h` may be contracted: ``OK`` or a code.
+
+    The link condition, for polygons and at boundaries: what the two ends have in common must be what the edge has.
+    Cost: the sum of the degrees around the origin, times the degree of the target at worst.
+    """
+    o = h ^ 1
+    a, b = origin_of(t, h), origin_of(t, o)
+    if a == b:
+        return LOOP_EDGE
+    for x in (h, o):
+        status = _side_status(t, x)
+        if status != OK:
+            return status
+    left, right = _is_face_triangle(t, h), _is_face_triangle(t, o)
+    if left and right and target_of(t, next_of(t, h)) == target_of(t, next_of(t, o)):
+        return SHARED_APEX
+    if face_of(t, h) >= 0 and face_of(t, o) >= 0 and touches_gap(t, a) and touches_gap(t, b):
+        return WOULD_PINCH
+    p_out = prev_of(t, h) ^ 1
+    x = ccw_of(t, h)
+    while x != h:
+        apex = (left and x == p_out) or (right and x == next_of(t, o))
+        if not apex and (target_of(t, x) == b or is_joined(t, x ^ 1, b)):
+            return WOULD_BE_PARALLEL
+        f = face_of(t, x)
+        if f >= 0 and f != face_of(t, h) and f != face_of(t, o) and _has_corner(t, x, b):
+            return WOULD_PINCH_FACE
+        x = ccw_of(t, x)
+    return OK
+
+
+@kernel
+def _is_face_triangle(t: Any, h: int) -> bool:
+    """Whether the face of `h` is a triangle of three edges: not one that passes the edge of `h` twice."""
+    leaf = next_of(t, h) == h ^ 1 or prev_of(t, h) == h ^ 1
+    return face_of(t, h) >= 0 and not leaf and is_triangle(t, h)
+
+
+@kernel
+def _side_status(t: Any, h: int) -> int:
+    """What the face or the hole on the left of `h` has against it."""
+    n, p = next_of(t, h), prev_of(t, h)
+    if n == p and (n != h ^ 1 or face_of(t, h) >= 0):
+        return SMALL_FACE
+    if n == h ^ 1 or p == h ^ 1 or not is_triangle(t, h):
+        return OK
+    if face_of(t, h) < 0:
+        return WOULD_CLOSE_HOLE
+    f, g = face_of(t, n ^ 1), face_of(t, p ^ 1)
+    if f < 0 and g < 0:
+        return WOULD_LEAVE_WIRE
+    folds = next_of(t, p ^ 1) ^ 1 == prev_of(t, n ^ 1) and _is_face_triangle(t, n ^ 1) and _is_face_triangle(t, p ^ 1)
+    return WOULD_FOLD if folds else OK
+
+
+@kernel
+def _has_corner(t: Any, h: int, v: int) -> bool:
+    """Whether the face of `h` has a corner at `v`; a triangle's corners are neighbors, and were asked for as such."""
+    if is_triangle(t, h):
+        return False
+    x = next_of(t, h)
+    while x != h:
+        if origin_of(t, x) == v:
+            return True
+        x = next_of(t, x)
+    return False
+
+
+# -- the act -------------------------------------------------------------------------------------------------------
+
+
+@kernel
+def collapse(t: Any, h: int, weight: float = 1.0) -> int:
+    r"""Contract `h`; returns the vertex that stays, its target. Cost: the degree of the origin.
+
+    `weight` says where the vertex that stays comes to lie, from the origin (0) to the target (1), for the attributes
+    that follow. A triangle beside the edge goes, and with it the one of its other edges that touched the origin;
+    larger faces give up a corner.
+
+    ::
+
+              c                        c
+            / | \                    / | \
+          /  p|   \ n              /   |n  \
+         .----a ---> b     -->    .--- b ----       a, h and a triangle's p go; b, n stay
+          \    \  h / \            \  /   \
+    """
+    o = h ^ 1
+    a, b = origin_of(t, h), origin_of(t, o)
+    n, p, on, op = next_of(t, h), prev_of(t, h), next_of(t, o), prev_of(t, o)
+    left, right = _is_face_triangle(t, h), _is_face_triangle(t, o)
+    note_union(t, VERTICES, b, a, 1.0 - weight)
+    if is_noting(t, CORNERS):
+        _note_wedges(t, h, weight)
+    gap = _gap_after(t, h)
+    x = ccw_of(t, h)
+    while x != h:
+        set_origin(t, x, b)
+        x = ccw_of(t, x)
+    if face_of(t, h) >= 0 and halfedge_of_face(t, face_of(t, h)) == h:
+        set_halfedge_of_face(t, face_of(t, h), n if n != o else on)
+    if face_of(t, o) >= 0 and halfedge_of_face(t, face_of(t, o)) == o:
+        set_halfedge_of_face(t, face_of(t, o), on if on != h else n)
+    if p == o:  # a is a leaf
+        link(t, op, n)
+    elif n == o:  # b is a leaf
+        link(t, p, on)
+    else:
+        link(t, p, n)
+        link(t, op, on)
+    set_halfedge_of_vertex(t, b, gap)
+    delete_edge(t, h)
+    delete_vertex(t, a)
+    if left:
+        _close(t, n, p)
+    if right:
+        _close(t, op, on)
+    changed(t)
+    return b
+
+
+@kernel
+def _gap_after(t: Any, h: int) -> int:
+    """The halfedge that the vertex that stays will have: exterior, if either end touches a gap; -1 if none is left."""
+    o = h ^ 1
+    va, vb = halfedge_of_vertex(t, origin_of(t, h)), halfedge_of_vertex(t, origin_of(t, o))
+    n, on = next_of(t, h), next_of(t, o)
+    if vb != o and face_of(t, vb) < 0:
+        return vb
+    if va != h and face_of(t, va) < 0:
+        return va
+    if n != o and (face_of(t, n) < 0 or on == h):
+        return n
+    if on != h and (face_of(t, on) < 0 or n == o):
+        return on
+    return n if n != o else -1
+
+
+@kernel
+def _close(t: Any, keep: int, drop: int) -> None:
+    r"""Close a face of two sides: its two edges become the one of `keep`, which takes the place behind `drop`.
+
+    ::
+
+           keep
+        b ------> c            keep
+          <------      -->   b ----> c
+           drop
+          ~~~~~~> q = drop ^ 1, with the face beyond
+    """
+    q, f = drop ^ 1, face_of(t, keep)
+    b, c, beyond, before, after = origin_of(t, keep), target_of(t, keep), face_of(t, q), prev_of(t, q), next_of(t, q)
+    if after == q:
+        link(t, keep, keep)
+    else:
+        link(t, before, keep)
+        link(t, keep, after)
+    set_face(t, keep, beyond)
+    if beyond >= 0 and halfedge_of_face(t, beyond) == q:
+        set_halfedge_of_face(t, beyond, keep)
+    if halfedge_of_vertex(t, b) == q or (beyond < 0 and face_of(t, halfedge_of_vertex(t, b)) >= 0):
+        set_halfedge_of_vertex(t, b, keep)
+    if halfedge_of_vertex(t, c) == drop:
+        set_halfedge_of_vertex(t, c, keep ^ 1)
+    note_union(t, EDGES, keep >> 1, drop >> 1, 0.5)
+    note_copy(t, CORNERS, keep, q)
+    delete_edge(t, drop)
+    delete_face(t, f)
+
+
+@kernel
+def _note_wedges(t: Any, h: int, weight: float) -> None:
+    """The corners at both ends follow the side of the edge that they share their value with; the sides' own last."""
+    o = h ^ 1
+    n, on = next_of(t, h), next_of(t, o)
+    x = ccw_of(t, h)
+    while x != h:
+        if x != on:
+            note_wedge(t, x, h, n, on, o, weight)
+        x = ccw_of(t, x)
+    x = ccw_of(t, o)
+    while x != o:
+        if x != n:
+            note_wedge(t, x, n, h, o, on, 1.0 - weight)
+        x = ccw_of(t, x)
+    if n != o and on != h:
+        note_union(t, CORNERS, n, h, 1.0 - weight)
+        note_union(t, CORNERS, on, o, weight)
+
+
+@kernel
+def try_collapse(t: Any, h: int, weight: float) -> int:
+    """Contract `h` if it may be: the vertex that stays, or the negative code."""
+    status = halfedge_status(t, h)
+    if status == OK:
+        status = collapse_status(t, h)
+    return -status if status != OK else collapse(t, h, weight)

@@ -1,0 +1,99 @@
+"""What all methods that change a mesh share: elements to indices, the compiled act, refusals to exceptions."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, NoReturn, TypeVar
+
+import numpy as np
+
+from halfmesh._jit import Kernel
+from halfmesh.core.statuses import DELETED_ELEMENT, MISSING_ELEMENT, REASONS
+from halfmesh.core.topology import NEWS
+from halfmesh.errors import ElementError, InvalidMeshError, StaleElementError, TopologyError
+from halfmesh.mesh.counts import Counted
+from halfmesh.mesh.elements import Edge, Element, Halfedge, made
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike, NDArray
+
+    from halfmesh.mesh.attributes import AttributeTable
+
+__all__ = ["Base", "as_point"]
+
+E = TypeVar("E", bound=Element)
+
+_ABOUT_AS_LONG_AS = 12  # elements: what an operator costs when it is interpreted, counted in steps of a loop
+
+
+class Base(Counted):
+    """The ways from a method to a kernel and back."""
+
+    vertex_data: AttributeTable
+    halfedge_data: AttributeTable
+    edge_data: AttributeTable
+    face_data: AttributeTable
+
+    def _index(self, kind: type[Element], element: Any) -> int:
+        """The index of a handle or an int. Whether there is such an element, alive, the kernel asks."""
+        if type(element) is kind and element._t is self._t:
+            return element.index
+        if type(element) is int:
+            return element
+        return getattr(self, kind.plural).resolve(element)  # type: ignore[no-any-return]
+
+    def _halfedge_index(self, element: Any) -> int:
+        """The same for operators that take a halfedge, or an edge for its first halfedge."""
+        return 2 * self._index(Edge, element) if isinstance(element, Edge) else self._index(Halfedge, element)
+
+    def _living(self, kind: type[Element], element: Any) -> int:
+        """The index of what is known to live: for questions, whose kernels do not ask that."""
+        index: int = getattr(self, kind.plural).resolve(element)
+        return index
+
+    def _act(self, kernel: Kernel[Any, Any], *args: Any) -> int:
+        """Run an operator: compiled by the shortest way there is, or interpreted until it has been called often."""
+        entry = kernel.__dict__.get("quick")
+        if entry is None:
+            return self._act_slowly(kernel, args)
+        result: int = entry(self._topology.__compiled__(), *args)
+        if self._t.counts[NEWS]:
+            self._topology.catch_up(compiled=True)
+            self._follow()
+        return result
+
+    def _act_slowly(self, kernel: Kernel[Any, Any], args: tuple[Any, ...]) -> int:
+        run: Any = kernel.at(_ABOUT_AS_LONG_AS)
+        result: int = run(self, *args)
+        entry = kernel.entry(self._topology.__compiled__(), *args) if "compiled" in kernel.__dict__ else None
+        if entry is not None:
+            kernel.__dict__["quick"] = entry
+        return result
+
+    def _made(self, kind: type[E], index: int) -> E:
+        return made(kind, self._t, index)
+
+    def _refuse(self, doing: str, code: int, *elements: tuple[str, Any]) -> NoReturn:
+        """Raise what the code of a refusal means; nothing was changed."""
+        name, sentence = REASONS[abs(code)]
+        about = ", ".join(f"{kind} {index}" for kind, index in elements)
+        if abs(code) == MISSING_ELEMENT:
+            raise ElementError(f"can't {doing} {about}: {sentence}")
+        if abs(code) == DELETED_ELEMENT:
+            raise StaleElementError(f"can't {doing} {about}: {sentence}")
+        raise TopologyError(f"can't {doing} {about}: {sentence}", reason=name)
+
+    def _follow(self, args: tuple[Any, ...] = ()) -> None:
+        raise NotImplementedError
+
+
+def as_point(point: ArrayLike) -> NDArray[np.float64]:
+    """Three finite numbers, or two with z = 0."""
+    try:
+        array = np.asarray(point, dtype=np.float64)
+    except (TypeError, ValueError) as error:
+        raise InvalidMeshError(f"{point!r} is no point: {error}", reason="bad_points") from None
+    if array.shape not in ((2,), (3,)):
+        raise InvalidMeshError(f"a point has 2 or 3 coordinates; got shape {array.shape}", reason="bad_points")
+    if not np.isfinite(array).all():
+        raise InvalidMeshError(f"a point must be finite; got {array.tolist()}", reason="bad_points")
+    return array if len(array) == 3 else np.append(array, 0.0)

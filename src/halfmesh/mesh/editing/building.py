@@ -1,0 +1,274 @@
+"""Building by hand: vertices, edges and faces are added one by one, and removed, in any order."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from halfmesh.core.operators.building import (
+    try_add_edge,
+    try_add_face,
+    try_add_face_of_vertices,
+    try_add_vertex,
+    try_make_adjacent,
+    try_remove_edge,
+    try_remove_face,
+    try_remove_vertex,
+)
+from halfmesh.core.search import find_halfedge
+from halfmesh.core.statuses import LOOP_EDGE
+from halfmesh.mesh.editing.base import Base, as_point
+from halfmesh.mesh.elements import Edge, Face, Halfedge, Vertex
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from numpy.typing import ArrayLike
+
+__all__ = ["Building"]
+
+
+class Building(Base):
+    """The operations of a general half-edge mesh: wire, loops, parallel edges and faces, as they come."""
+
+    has_points: bool
+
+    def add_vertex(self, point: ArrayLike | None = None) -> Vertex:
+        """Add an isolated vertex.
+
+        Parameters
+        ----------
+        point : (3,) or (2,) array_like of float, optional
+            Its position; zeros if not given.
+
+        Returns
+        -------
+        Vertex
+            The last one.
+
+        Raises
+        ------
+        InvalidMeshError
+            The point is not finite.
+
+        Notes
+        -----
+        V + 1, components + 1. Amortised O(1).
+
+        Examples
+        --------
+        >>> import halfmesh as hm
+        >>> mesh = hm.Mesh([])
+        >>> mesh.add_vertex([1, 2, 3]).point.tolist()
+        [1.0, 2.0, 3.0]
+        """
+        place = None if point is None else as_point(point)
+        v = self._act(try_add_vertex)
+        if v < 0:
+            self._refuse("add", v, ("a", "vertex"))
+        if place is not None:
+            self.vertex_data["points"][v] = place
+            self.has_points = True
+        return self._made(Vertex, v)
+
+    def add_edge(
+        self, u: Vertex | int, v: Vertex | int, *, allow_loop: bool = True, allow_parallel: bool = True
+    ) -> Edge:
+        """Add an edge without faces between two vertices that touch a gap, or are isolated.
+
+        Parameters
+        ----------
+        u, v : Vertex or int
+            May be the same: a loop edge.
+        allow_loop : bool
+            If False, a loop edge is refused.
+        allow_parallel : bool
+            If False, an edge that joins them already is returned in place of a new one.
+
+        Returns
+        -------
+        Edge
+            Its halfedge runs from `u` to `v`, if it is new. It is hung into the gap at the halfedge of each vertex.
+
+        Raises
+        ------
+        TopologyError
+            Faces close all around an end, or it is a loop that is not allowed.
+        StaleElementError, ElementError
+            One of them was deleted, or there is none.
+
+        Notes
+        -----
+        E + 1. Amortised O(1), and the smaller degree where `allow_parallel` is False.
+
+        Examples
+        --------
+        >>> import halfmesh as hm
+        >>> mesh = hm.Mesh([], n_vertices=3)
+        >>> e = mesh.add_edge(0, 1)
+        >>> e.vertices, e.faces
+        ((Vertex(0), Vertex(1)), (None, None))
+        >>> mesh.add_edge(1, 0, allow_parallel=False) == e
+        True
+        """
+        a, b = self._index(Vertex, u), self._index(Vertex, v)
+        if not allow_loop and a == b:
+            self._refuse("join", LOOP_EDGE, ("vertex", a), ("vertex", b))
+        if not allow_parallel:
+            found = self._act(find_halfedge, self._living(Vertex, a), self._living(Vertex, b))
+            if found >= 0:
+                return self._made(Edge, found >> 1)
+        h = self._act(try_add_edge, a, b)
+        if h < 0:
+            self._refuse("join", h, ("vertex", a), ("vertex", b))
+        return self._made(Edge, h >> 1)
+
+    def add_face(
+        self, vertices: Iterable[Vertex | int] | None = None, *, halfedges: Iterable[Halfedge | int] | None = None
+    ) -> Face:
+        """Add a face, by its vertices or by its halfedges, counter-clockwise.
+
+        Parameters
+        ----------
+        vertices : iterable of Vertex or int, optional
+            At least three. Edges that are missing are made.
+        halfedges : iterable of Halfedge or int, optional
+            At least one, each arriving where the next one leaves, all without a face.
+
+        Returns
+        -------
+        Face
+            The last one; its halfedge is the first of those given.
+
+        Raises
+        ------
+        TopologyError
+            A side has a face already, or the parts around a vertex can't be brought into the order that the face
+            needs; ``reason`` says which. Nothing was changed.
+        StaleElementError, ElementError
+            One of them was deleted, or there is none.
+
+        Notes
+        -----
+        F + 1. O(sum of the degrees of its vertices).
+
+        Examples
+        --------
+        >>> import halfmesh as hm
+        >>> mesh = hm.Mesh([], n_vertices=4)
+        >>> f = mesh.add_face([0, 1, 2])
+        >>> g = mesh.add_face([2, 1, 3])
+        >>> mesh.n_edges, [h.index for h in g.neighbors()]
+        (5, [0])
+        """
+        if (vertices is None) == (halfedges is None):
+            raise TypeError("add_face takes either vertices or halfedges=")
+        if vertices is not None:
+            corners = self._indices(Vertex, vertices)
+            f = self._act(try_add_face_of_vertices, corners)
+            kind = "vertices"
+        else:
+            assert halfedges is not None
+            corners = self._indices(Halfedge, halfedges)
+            f = self._act(try_add_face, corners)
+            kind = "halfedges"
+        if f < 0:
+            self._refuse("add a face with", f, (kind, corners.tolist()))
+        return self._made(Face, f)
+
+    def _indices(self, kind: type[Any], elements: Iterable[Any]) -> Any:
+        return np.array([self._living(kind, x) for x in elements], dtype=np.int64)
+
+    def make_adjacent(self, arriving: Halfedge | int, leaving: Halfedge | int) -> None:
+        """Reorder what hangs around a vertex so that ``arriving.next == leaving``.
+
+        Parameters
+        ----------
+        arriving, leaving : Halfedge or int
+            Both without a face; the one arrives at the vertex that the other leaves.
+
+        Raises
+        ------
+        TopologyError
+            They do not meet, have a face, or there is no other gap to move what is between them to.
+        StaleElementError, ElementError
+            One of them was deleted, or there is none.
+
+        Notes
+        -----
+        O(degree). Boundary loops are joined and split; everything else stays.
+        """
+        h, g = self._index(Halfedge, arriving), self._index(Halfedge, leaving)
+        code = self._act(try_make_adjacent, h, g)
+        if code < 0:
+            self._refuse("make adjacent", code, ("halfedge", h), ("halfedge", g))
+
+    def remove_face(self, face: Face | int) -> None:
+        """Remove a face and leave its edges: a gap is in its place.
+
+        Raises
+        ------
+        StaleElementError, ElementError
+            The face was deleted, or there is none.
+
+        Notes
+        -----
+        F - 1; edges and vertices stay, as wire if need be. O(degree).
+
+        Examples
+        --------
+        >>> import halfmesh as hm
+        >>> mesh = hm.shapes.cube()
+        >>> mesh.remove_face(0)
+        >>> mesh.n_faces, mesh.n_edges, mesh.n_boundary_loops
+        (5, 12, 1)
+        """
+        f = self._index(Face, face)
+        code = self._act(try_remove_face, f)
+        if code < 0:
+            self._refuse("remove", code, ("face", f))
+
+    def remove_edge(self, edge: Edge | int) -> None:
+        """Remove an edge and the faces on both sides of it; its ends stay.
+
+        See :meth:`join_faces` for uniting the faces.
+
+        Raises
+        ------
+        StaleElementError, ElementError
+            The edge was deleted, or there is none.
+
+        Notes
+        -----
+        E - 1, F - 1 or - 2 for the faces beside it. O(degree).
+        """
+        e = self._index(Edge, edge)
+        code = self._act(try_remove_edge, e)
+        if code < 0:
+            self._refuse("remove", code, ("edge", e))
+
+    def remove_vertex(self, vertex: Vertex | int) -> None:
+        """Remove a vertex with its edges and the faces around it.
+
+        Raises
+        ------
+        StaleElementError, ElementError
+            The vertex was deleted, or there is none.
+
+        Notes
+        -----
+        V - 1, E - its edges, F - the faces around it. O(sum of the degrees around it).
+
+        Examples
+        --------
+        >>> import halfmesh as hm
+        >>> mesh = hm.shapes.cube()
+        >>> mesh.remove_vertex(0)
+        >>> mesh.n_vertices, mesh.n_edges, mesh.n_faces
+        (7, 9, 3)
+        """
+        v = self._index(Vertex, vertex)
+        code = self._act(try_remove_vertex, v)
+        if code < 0:
+            self._refuse("remove", code, ("vertex", v))

@@ -1,0 +1,344 @@
+"""Local operators: they change the mesh around one edge, face or vertex."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from halfmesh.core.operators.collapses import collapse_status, try_collapse
+from halfmesh.core.operators.flips import flip_status, try_flip
+from halfmesh.core.operators.splits import (
+    connect_status,
+    join_faces_status,
+    try_connect,
+    try_join_faces,
+    try_split_edge,
+    try_split_face,
+)
+from halfmesh.errors import InvalidMeshError
+from halfmesh.mesh.editing.base import Base, as_point
+from halfmesh.mesh.elements import Edge, Face, Halfedge, Vertex
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
+
+__all__ = ["Local"]
+
+
+class Local(Base):
+    """Flips, splits, collapses, and their inverses."""
+
+    def can_flip(self, edge: Edge | int, *, allow_parallel: bool = False) -> bool:
+        """Whether :meth:`flip` would turn the edge. O(degree)."""
+        return self._act(flip_status, self._living(Edge, edge), allow_parallel) == 0
+
+    def flip(self, edge: Edge | int, *, allow_parallel: bool = False) -> None:
+        r"""Turn an edge counter-clockwise inside its two faces: each end moves on to the next corner.
+
+        ::
+
+                 b                    b
+               / | \                /   \
+              c  |  d      -->     c --- d
+               \ | /                \   /
+                 a                    a
+
+        Parameters
+        ----------
+        edge : Edge or int
+        allow_parallel : bool
+            Also where the edge would join a vertex to itself, or two that are joined already.
+
+        Raises
+        ------
+        TopologyError
+            The edge has no face on one side, the same face on both, or a face of fewer than three sides; or the
+            edge would become a loop or parallel to another.
+        StaleElementError, ElementError
+            The edge was deleted, or there is none.
+
+        Notes
+        -----
+        Faces may have any degree, and keep it. V, E, F, components and boundary loops stay as they are. The edge,
+        its halfedges and the faces keep their indices. O(1), and the smaller degree of the new ends for the test.
+
+        Examples
+        --------
+        >>> import halfmesh as hm
+        >>> mesh = hm.Mesh([[0, 1, 2], [1, 0, 3]])
+        >>> mesh.flip(mesh.find_halfedge(0, 1).edge)
+        >>> mesh.face_vertices()[0].reshape(-1, 3).tolist()
+        [[3, 2, 0], [2, 3, 1]]
+        """
+        e = edge.index if type(edge) is Edge and edge._t is self._t else self._index(Edge, edge)
+        code = self._act(try_flip, e, allow_parallel)
+        if code < 0:
+            self._refuse("flip", code, ("edge", e))
+
+    # -- splits ----------------------------------------------------------------------------------------------------
+
+    def split_edge(self, edge: Edge | Halfedge | int, point: ArrayLike | None = None, *, at: float = 0.5) -> Vertex:
+        r"""Put a vertex into an edge. The faces beside it gain a corner.
+
+        ::
+
+            a ------> b     -->     a ----> v ----> b
+
+        Parameters
+        ----------
+        edge : Edge or int, or Halfedge
+            An edge stands for its halfedge, ``2 * edge``.
+        point : (3,) or (2,) array_like of float, optional
+            Where the vertex is to lie. If not given it lies on the edge.
+        at : float
+            How far along the halfedge, from its origin (0) to its target (1): where the vertex lies, and what its
+            other attributes are interpolated at.
+
+        Returns
+        -------
+        Vertex
+            The new vertex, the last one. The new edge is the last one too, and runs from it to the old target.
+
+        Raises
+        ------
+        StaleElementError, ElementError
+            The edge was deleted, or there is none.
+        InvalidMeshError
+            The point is not finite, or `at` is not between 0 and 1.
+
+        Notes
+        -----
+        V + 1, E + 1; faces, components and boundary loops stay. Any edge will do. :meth:`collapse` undoes it. O(1).
+
+        Examples
+        --------
+        >>> import halfmesh as hm
+        >>> mesh = hm.shapes.cube()
+        >>> v = mesh.split_edge(0, at=0.25)
+        >>> v.degree, mesh.n_edges, [f.degree for f in v.faces()]
+        (2, 13, [5, 5])
+        """
+        place = None if point is None else as_point(point)
+        h = 2 * edge if type(edge) is int else self._halfedge_index(edge)
+        v = self._act(try_split_edge, h, _fraction(at))
+        if v < 0:
+            self._refuse("split", v, ("edge", h >> 1))
+        return self._placed(v, place)
+
+    def split_face(self, face: Face | int, point: ArrayLike | None = None) -> Vertex:
+        r"""Put a vertex into a face and join it to every corner.
+
+        ::
+
+               c                      c
+             /   \                  / | \
+            /  f  \       -->      /  v  \
+           /       \              / /   \ \
+          a ------- b            a --------- b
+
+        Parameters
+        ----------
+        face : Face or int
+        point : (3,) or (2,) array_like of float, optional
+            Where the vertex is to lie; the mean of the corners if not given.
+
+        Returns
+        -------
+        Vertex
+            The new vertex, the last one. The face keeps its first side.
+
+        Raises
+        ------
+        StaleElementError, ElementError
+            The face was deleted, or there is none.
+        InvalidMeshError
+            The point is not finite.
+
+        Notes
+        -----
+        For a face of k corners: V + 1, E + k, F + k - 1; components and boundary loops stay. Any face will do. O(k).
+
+        Examples
+        --------
+        >>> import halfmesh as hm
+        >>> mesh = hm.shapes.cube()
+        >>> v = mesh.split_face(0)
+        >>> v.degree, mesh.n_faces, v.point.tolist()
+        (4, 9, [0.5, 0.5, 0.0])
+        """
+        place = None if point is None else as_point(point)
+        f = self._index(Face, face)
+        v = self._act(try_split_face, f)
+        if v < 0:
+            self._refuse("split", v, ("face", f))
+        return self._placed(v, place)
+
+    def can_connect(self, a: Halfedge | int, b: Halfedge | int, *, allow_parallel: bool = False) -> bool:
+        """Whether :meth:`connect` would join the two corners. O(degree)."""
+        h, g = self._living(Halfedge, a), self._living(Halfedge, b)
+        return self._act(connect_status, h, g, allow_parallel) == 0
+
+    def connect(self, a: Halfedge | int, b: Halfedge | int, *, allow_parallel: bool = False) -> Halfedge:
+        r"""Split a face by a diagonal: join the origins of two of its halfedges.
+
+        ::
+
+            . <----- b              . <----- b
+            |    f   ^              |  f  /  ^
+            v        |     -->      v   /    |
+            a -----> .              a -----> .
+
+        Parameters
+        ----------
+        a, b : Halfedge or int
+            Halfedges of one face; each names the corner at its origin.
+        allow_parallel : bool
+            Also where the new edge is a loop, or joins two vertices that are joined already.
+
+        Returns
+        -------
+        Halfedge
+            The new halfedge from `a`, of the last edge. The new face, the last one, is on its left.
+
+        Raises
+        ------
+        TopologyError
+            They are the same corner, of different faces or of none; or the edge would be a loop or parallel.
+        StaleElementError, ElementError
+            One of them was deleted, or there is none.
+
+        Notes
+        -----
+        E + 1, F + 1; vertices, components and boundary loops stay. :meth:`join_faces` undoes it. O(degree).
+
+        Examples
+        --------
+        >>> import halfmesh as hm
+        >>> mesh = hm.Mesh([[0, 1, 2, 3]])
+        >>> h = mesh.connect(mesh.find_halfedge(0, 1), mesh.find_halfedge(2, 3))
+        >>> h.origin, h.target, [v.index for v in h.face.vertices()]
+        (Vertex(0), Vertex(2), [0, 2, 3])
+        """
+        h, g = self._index(Halfedge, a), self._index(Halfedge, b)
+        x = self._act(try_connect, h, g, allow_parallel)
+        if x < 0:
+            self._refuse("connect", x, ("halfedge", h), ("halfedge", g))
+        return self._made(Halfedge, x)
+
+    def can_join_faces(self, edge: Edge | Halfedge | int) -> bool:
+        """Whether :meth:`join_faces` would unite the faces beside the edge. O(1)."""
+        kind = Halfedge if isinstance(edge, Halfedge) else Edge
+        i = self._living(kind, edge)
+        return self._act(join_faces_status, i if kind is Halfedge else 2 * i) == 0
+
+    def join_faces(self, edge: Edge | Halfedge | int) -> Face:
+        r"""Remove an edge between two faces, which become one.
+
+        Parameters
+        ----------
+        edge : Edge or int, or Halfedge
+            An edge stands for its halfedge, ``2 * edge``. The face on the left of the halfedge stays.
+
+        Returns
+        -------
+        Face
+            The face that stays.
+
+        Raises
+        ------
+        TopologyError
+            A face is missing on one side, or the same one lies on both, or one of them has no other side.
+        StaleElementError, ElementError
+            The edge was deleted, or there is none.
+
+        Notes
+        -----
+        E - 1, F - 1; vertices, components and boundary loops stay. :meth:`connect` undoes it. O(degree) of the face
+        that goes.
+
+        Examples
+        --------
+        >>> import halfmesh as hm
+        >>> mesh = hm.Mesh([[0, 1, 2], [0, 2, 3]])
+        >>> f = mesh.join_faces(mesh.find_halfedge(0, 2))
+        >>> f.degree, mesh.n_faces, mesh.n_edges
+        (4, 1, 4)
+        """
+        h = 2 * edge if type(edge) is int else self._halfedge_index(edge)
+        code = self._act(try_join_faces, h)
+        if code < 0:
+            self._refuse("join the faces beside", code, ("edge", h >> 1))
+        return self._made(Face, code)
+
+    # -- collapse --------------------------------------------------------------------------------------------------
+
+    def can_collapse(self, halfedge: Halfedge | int) -> bool:
+        """Whether :meth:`collapse` would contract the halfedge. Some O(degree^2)."""
+        return self._act(collapse_status, self._living(Halfedge, halfedge)) == 0
+
+    def collapse(self, halfedge: Halfedge | int, point: ArrayLike | None = None, *, at: float = 1.0) -> Vertex:
+        r"""Contract an edge: the origin of the halfedge goes, its target stays.
+
+        ::
+
+                 c                 c
+               / | \               |  \
+              .  |   \      -->    .  |   .
+               \ a--> b              \ b /
+
+        Parameters
+        ----------
+        halfedge : Halfedge or int
+        point : (3,) or (2,) array_like of float, optional
+            Where the vertex that stays is to lie.
+        at : float
+            The same as a place along the halfedge, from its origin (0) to its target (1), for all attributes.
+
+        Returns
+        -------
+        Vertex
+            The vertex that stays.
+
+        Raises
+        ------
+        TopologyError
+            The link condition does not hold: what the ends have in common is more than the edge has; ``reason``
+            says which way the surface would be pinched, folded or doubled.
+        StaleElementError, ElementError
+            The halfedge was deleted, or there is none.
+        InvalidMeshError
+            The point is not finite, or `at` is not between 0 and 1.
+
+        Notes
+        -----
+        V - 1; for each triangle beside the edge E - 2 and F - 1 in place of E - 1: Euler's number, the components and
+        the boundary loops stay. Larger faces give up a corner. Faces of any degree, boundary edges and wire.
+
+        References
+        ----------
+        Dey, Edelsbrunner, Guha, Nekhayev, *Topology preserving edge contraction* (1999), section 3.
+
+        Examples
+        --------
+        >>> import halfmesh as hm
+        >>> mesh = hm.shapes.icosphere(1)
+        >>> v = mesh.collapse(0, at=0.5)
+        >>> mesh.n_vertices, mesh.n_faces, mesh.euler_characteristic
+        (41, 78, 2)
+        """
+        place = None if point is None else as_point(point)
+        h = self._index(Halfedge, halfedge)
+        v = self._act(try_collapse, h, _fraction(at))
+        if v < 0:
+            self._refuse("collapse", v, ("halfedge", h))
+        return self._placed(v, place)
+
+    def _placed(self, v: int, place: Any) -> Vertex:
+        if place is not None:
+            self.vertex_data["points"][v] = place
+        return self._made(Vertex, v)
+
+
+def _fraction(at: float) -> float:
+    if not 0.0 <= at <= 1.0:  # which NaN is not
+        raise InvalidMeshError(f"at={at!r} is no place on the edge: it runs from 0 to 1", reason="bad_parameter")
+    return float(at)

@@ -1,0 +1,97 @@
+"""Adding and removing through the mesh: the operations of the general half-edge mesh, with its points."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import halfmesh as hm
+from halfmesh.testing import assert_valid, zoo
+
+ZOO = zoo()
+
+
+@pytest.mark.parametrize("name", ZOO)
+def test_mesh_is_taken_down_face_by_face_edge_by_edge_vertex_by_vertex(name):
+    mesh = ZOO[name].mesh()
+    for kind, remove in (("faces", mesh.remove_face), ("edges", mesh.remove_edge), ("vertices", mesh.remove_vertex)):
+        for element in list(getattr(mesh, kind)):
+            remove(element)
+            assert_valid(mesh)
+        assert len(getattr(mesh, kind)) == 0
+
+
+@pytest.mark.parametrize("name", ZOO)
+def test_vertices_are_removed_with_all_that_hangs_on_them(name):
+    mesh = ZOO[name].mesh()
+    for v in mesh.vertices:
+        mesh.remove_vertex(v)
+        assert_valid(mesh)
+    assert (mesh.n_vertices, mesh.n_edges, mesh.n_faces) == (0, 0, 0)
+
+
+def test_cube_built_by_hand_is_the_cube():
+    cube, mesh = hm.shapes.cube(), hm.Mesh([])
+    for point in cube.points:
+        mesh.add_vertex(point)
+    for face in cube.faces:
+        mesh.add_face([v.index for v in face.vertices()])
+        assert_valid(mesh)
+    assert np.array_equal(mesh.face_vertices()[0], cube.face_vertices()[0])
+    assert np.array_equal(mesh.points, cube.points)
+    assert mesh.has_points
+    assert (mesh.genus, mesh.has_boundary) == (0, False)
+
+
+def test_wire_becomes_a_face():
+    mesh = hm.Mesh([], n_vertices=3)
+    edges = [mesh.add_edge(i, (i + 1) % 3) for i in range(3)]
+    f = mesh.add_face(halfedges=[e.halfedge for e in edges])
+    assert_valid(mesh)
+    assert (mesh.n_faces, f.degree, mesh.n_boundary_loops) == (1, 3, 1)
+
+
+def test_loops_and_parallels_by_policy():
+    mesh = hm.Mesh([], n_vertices=2)
+    e = mesh.add_edge(0, 1)
+    assert mesh.add_edge(1, 0, allow_parallel=False) == e
+    assert mesh.add_edge(0, 1) != e
+    with pytest.raises(hm.TopologyError) as refused:
+        mesh.add_edge(0, 0, allow_loop=False)
+    assert refused.value.reason == "loop_edge"
+    mesh.add_edge(0, 0)
+    assert_valid(mesh)
+    assert mesh.vertices[0].degree == 4
+
+
+def test_refused_faces_change_nothing():
+    mesh = hm.Mesh([[0, 1, 2]], n_vertices=4)
+    before = [column.copy() for column in (mesh.topology.next, mesh.topology.face, mesh.topology.vertex_halfedge)]
+    for vertices, reason in (([0, 1, 3], "taken_halfedge"), ([0, 1], "few_vertices")):
+        with pytest.raises(hm.TopologyError) as refused:
+            mesh.add_face(vertices)
+        assert refused.value.reason == reason
+    for wrong in ([0, 1, 9], [0, -1, 2], [0, 1, True]):
+        with pytest.raises(hm.ElementError):
+            mesh.add_face(wrong)
+    with pytest.raises(TypeError):
+        mesh.add_face()
+    after = [mesh.topology.next, mesh.topology.face, mesh.topology.vertex_halfedge]
+    assert all(np.array_equal(a, b) for a, b in zip(before, after, strict=True))
+
+
+def test_edge_at_a_closed_vertex_is_refused():
+    mesh = hm.shapes.cube()
+    with pytest.raises(hm.TopologyError) as refused:
+        mesh.add_edge(0, 6)
+    assert refused.value.reason == "closed_vertex"
+
+
+def test_adding_is_amortised():
+    mesh = hm.Mesh([])
+    capacities = set()
+    for _ in range(1000):
+        mesh.add_vertex()
+        capacities.add(mesh.topology.capacity_nbytes)
+    assert mesh.n_vertices == 1000
+    assert len(capacities) < 15
