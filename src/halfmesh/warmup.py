@@ -155,8 +155,8 @@ def _change() -> None:
         lambda: mesh.split_edge(0),
         lambda: mesh.split_face(0),
         lambda: mesh.join_faces(mesh.connect(mesh.faces[1].halfedge, mesh.faces[1].halfedge.next, allow_parallel=True)),
-        lambda: mesh.collapse(next(h for h in mesh.halfedges if mesh.can_collapse(h))),
         lambda: (mesh.can_flip(0), mesh.can_connect(0, 0), mesh.can_join_faces(0)),
+        lambda: mesh.collapse(next(h for h in mesh.halfedges if mesh.can_collapse(h))),
     ):
         operator()
     _build_by_hand()

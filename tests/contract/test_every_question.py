@@ -123,7 +123,7 @@ BREAKS = {
     "a column": lambda mesh: mesh.topology.__arrays__().next.__setitem__(0, 0),
     "a kept count": lambda mesh: mesh.topology.__arrays__().counts.__setitem__(2, 5),
     "a cached count": lambda mesh: mesh._cache.update(loops=(mesh.revision, (np.zeros(0), np.zeros(9)))),
-    "an attribute": lambda mesh: setattr(mesh.vertex_data.column("points"), "values", np.zeros((3, 3))),
+    "the shape of points": lambda mesh: setattr(mesh.vertex_data.column("points"), "values", np.zeros((8, 2))),
     "the dtype of points": lambda mesh: setattr(
         mesh.vertex_data.column("points"), "values", np.zeros((8, 3), np.float32)
     ),
