@@ -112,6 +112,16 @@ def _unchecked() -> Any:
     return read
 
 
+@functools.cache
+def _checked() -> Any:
+    """The same for a process that checks all bounds, with the same type."""
+
+    def read(column: Any, index: Any) -> Any:
+        return np.int64(column[index])
+
+    return numba().njit(error_model="numpy", nogil=True)(read)
+
+
 def _define_carriers() -> None:
     with _defining:  # the first kernels of a process may be called by two threads at once
         while _undefined:
@@ -149,8 +159,8 @@ def dispatcher(
     """
     _define_carriers()
     source = source or function
-    if unchecked and not numba().config.BOUNDSCHECK:
-        source = with_column_reads(source, _unchecked())
+    if unchecked:
+        source = with_column_reads(source, _checked() if numba().config.BOUNDSCHECK else _unchecked())
     made = numba().njit(error_model="numpy", nogil=True, boundscheck=bounds or None, forceinline=inline)(source)
     cache = _disk_cache(source, fingerprint(function, salt, _own_source(), *_versions())) if keep else None
     if cache is not None:

@@ -77,7 +77,8 @@ def delete_vertex(t: Any, v: int) -> None:
 @kernel
 def delete_edge(t: Any, h: int) -> None:
     """Mark both halfedges of an edge that nothing refers to."""
-    for x in (h, h ^ 1):
+    for side in range(2):
+        x = h ^ side
         set_next(t, x, DELETED)
         set_prev(t, x, DELETED)
         set_origin(t, x, DELETED)

@@ -162,8 +162,8 @@ class AttributeTable(MutableMapping[str, NDArray[Any]]):
         name : str
         policy : str or callable
             One of ``lerp mean copy sum min max first nearest normalize``, or a function ``f(values, weights)`` that
-            gives the value of an element from those of its sources, of shapes ``(n, *shape)`` and ``(n,)``. Floats start
-            with ``lerp``, everything else with ``copy``.
+            gives the value of an element from those of its sources, of shapes ``(n, *shape)`` and ``(n,)``. Floats
+            start with ``lerp``, everything else with ``copy``.
 
         Raises
         ------

@@ -49,8 +49,8 @@ def collapse_status(t: Any, h: int) -> int:
     a, b = origin_of(t, h), origin_of(t, o)
     if a == b:
         return LOOP_EDGE
-    for x in (h, o):
-        status = _side_status(t, x)
+    for side in range(2):
+        status = _side_status(t, h ^ side)
         if status != OK:
             return status
     left, right = _is_face_triangle(t, h), _is_face_triangle(t, o)
