@@ -136,6 +136,7 @@ def dispatcher(
     unchecked: bool = False,
     bounds: bool = False,
     inline: bool = False,
+    nogil: bool = True,
     salt: str = "",
 ) -> Any:
     """The Numba dispatcher of a function.
@@ -154,6 +155,8 @@ def dispatcher(
         Check every index of the function's own text.
     inline : bool
         Write the code into every caller.
+    nogil : bool
+        Let other threads run while it does.
     salt : str
         What else the cache key depends on.
     """
@@ -161,7 +164,7 @@ def dispatcher(
     source = source or function
     if unchecked:
         source = with_column_reads(source, _checked() if numba().config.BOUNDSCHECK else _unchecked())
-    made = numba().njit(error_model="numpy", nogil=True, boundscheck=bounds or None, forceinline=inline)(source)
+    made = numba().njit(error_model="numpy", nogil=nogil, boundscheck=bounds or None, forceinline=inline)(source)
     cache = _disk_cache(source, fingerprint(function, salt, _own_source(), *_versions())) if keep else None
     if cache is not None:
         made._cache = cache
@@ -297,18 +300,16 @@ class CarrierType:
             def preprocess_fields(self, fields: Any) -> Any:
                 return tuple((n, nbtypes.unliteral(t)) for n, t in fields)
 
-        class Proxy(structref.StructRefProxy):  # type: ignore[misc, unused-ignore]
-            pass
-
-        for made, suffix in ((Type, "Type"), (Proxy, "Proxy")):
+        proxy = _proxy_class()
+        for made, suffix in ((Type, "Type"), (proxy, "Proxy")):
             made.__name__ = made.__qualname__ = self.name + suffix
             setattr(sys.modules[__name__], made.__name__, made)  # pickle looks here when the disk cache is read
         structref.register(Type)
-        structref.define_constructor(Proxy, Type, list(self.fields))
-        structref.define_boxing(Type, Proxy)
+        structref.define_constructor(proxy, Type, list(self.fields))
+        _define_boxing(Type, proxy)
         if self.growing is not None:
             _define_growing(Type, self.growing.compiled)
-        scope: dict[str, Any] = {"Proxy": Proxy}
+        scope: dict[str, Any] = {"Proxy": proxy}
         names = ", ".join(self.fields)
         exec(f"def make_{self.name}({names}): return Proxy({names})", scope)
         exec(f"def take_{self.name}(t): return ({''.join(f't.{f}, ' for f in self.fields)})", scope)
@@ -316,6 +317,58 @@ class CarrierType:
             function = scope[f"{verb}_{self.name}"]
             function.__module__ = __name__
             setattr(self, f"_{verb}", dispatcher(function, salt=repr(self.fields)))
+
+
+def _proxy_class() -> Any:
+    """What Python holds of a structref: the number that is its address, and what keeps it alive."""
+
+    class Proxy(int):
+        _numba_type_: Any
+        _meminfo: Any
+
+        @classmethod
+        def boxed(cls, address: int, numba_type: Any, meminfo: Any) -> Proxy:
+            made = int.__new__(cls, address)
+            made._numba_type_, made._meminfo = numba_type, meminfo
+            return made
+
+    return Proxy
+
+
+def _define_boxing(carrier: Any, proxy: Any) -> None:
+    """How a carrier goes in and out.
+
+    Numba's own way in looks up an attribute and calls into its runtime; with an address a call takes 160 ns, not 270.
+    """
+    from numba.core import cgutils
+    from numba.core import types as nbtypes
+    from numba.extending import NativeValue, box, typeof_impl, unbox
+
+    @typeof_impl.register(proxy)
+    def type_of_proxy(value: Any, context: Any) -> Any:
+        return value._numba_type_
+
+    @box(carrier)
+    def box_carrier(kind: Any, value: Any, c: Any) -> Any:
+        meminfo = cgutils.create_struct_proxy(kind)(c.context, c.builder, value=value).meminfo
+        arguments = [
+            c.pyapi.long_from_ulonglong(c.builder.ptrtoint(meminfo, c.pyapi.ulonglong)),
+            c.pyapi.unserialize(c.pyapi.serialize_object(kind)),
+            c.box(nbtypes.MemInfoPointer(nbtypes.voidptr), meminfo),
+        ]
+        make = c.pyapi.unserialize(c.pyapi.serialize_object(proxy.boxed))
+        made = c.pyapi.call_function_objargs(make, arguments)
+        for owned in (make, *arguments):
+            c.pyapi.decref(owned)
+        return made
+
+    @unbox(carrier)
+    def unbox_carrier(kind: Any, argument: Any, c: Any) -> Any:
+        carried = cgutils.create_struct_proxy(kind)(c.context, c.builder)
+        carried.meminfo = c.builder.bitcast(c.pyapi.long_as_voidptr(argument), carried.meminfo.type)
+        native = carried._getvalue()
+        c.context.nrt.incref(c.builder, kind, native)
+        return NativeValue(native)
 
 
 def _define_growing(carrier: Any, more: Any) -> None:

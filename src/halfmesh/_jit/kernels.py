@@ -17,12 +17,14 @@ from halfmesh._jit.loops import inlined, misspelled, unrolled
 __all__ = [
     "Circulator",
     "Kernel",
+    "Operation",
     "Rule",
     "all_kernels",
     "circulator",
     "declared",
     "inline_kernel",
     "kernel",
+    "operation",
     "rule",
     "twofold",
 ]
@@ -162,6 +164,18 @@ class InlineKernel(Kernel[P, R]):
         return dispatcher(self.py_func, inline=True, salt="inline")
 
 
+class Operation(Kernel[P, R]):
+    """A short kernel that Python calls for one element at a time: it keeps the GIL, which would cost as much as it."""
+
+    quick: Any = None
+    """The compiled code itself, once there is any: called with lowered arguments, see `entry`."""
+
+    @functools.cached_property
+    def compiled(self) -> Any:
+        """The dispatcher; 30 ns of a call of 110 would go into giving the GIL away and taking it back."""
+        return dispatcher(self.py_func, source=unrolled(self.py_func, _is_circulator), nogil=False, salt="operation")
+
+
 class Rule(Kernel[P, R]):
     """A one-line kernel ``rule(t, h)``; called from Python it is interpreted for an int, vectorised for an array."""
 
@@ -237,6 +251,11 @@ def inline_kernel(function: Callable[P, R]) -> Kernel[P, R]:
     A call of compiled code counts references to the carrier, atomically: 5-10 ns, five times what a pen writes in.
     """
     return InlineKernel(function)
+
+
+def operation(function: Callable[P, R]) -> Operation[P, R]:
+    """Declare a short kernel ``operation(t, i, ...)`` that Python calls for one element at a time."""
+    return Operation(function)
 
 
 def rule(function: Callable[P, R]) -> Rule[P, R]:

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from typing import Any
 
-from halfmesh._jit import kernel
+from halfmesh._jit import operation
 from halfmesh.core.navigation import ccw_of, target_of
 
 __all__ = ["find_halfedge"]
 
 
-@kernel
+@operation
 def find_halfedge(t: Any, u: int, v: int) -> int:
     """The first halfedge from `u` to `v` that turns up, -1 if there is none.
 

@@ -97,11 +97,11 @@ class Topology:
     The arrays are views without a copy. They are stale after the mesh has grown: take them afresh.
     """
 
-    __slots__ = ("_arrays", "_proxy", "_views", "owner")
+    __slots__ = ("_arrays", "_views", "lowered", "owner")
 
     def __init__(self, arrays: Arrays) -> None:
         self._views = _jit.Views()
-        self._proxy: Any = None
+        self.lowered: Any = None  # the compiled form, once it was asked for
         self.owner: Any = None  # gives the mesh whose attributes follow the changes, if there is one
         self._adopt(arrays)
 
@@ -115,7 +115,7 @@ class Topology:
         for name in FIELDS:
             setattr(self._views, name, _GONE)
         arrays.counts[NEWS] = 0
-        self._views, self._proxy = _jit.Views(), None
+        self._views, self.lowered = _jit.Views(), None
         self._adopt(arrays)
 
     # -- the columns in use --------------------------------------------------------------------------------------
@@ -200,9 +200,9 @@ class Topology:
         return self._arrays
 
     def __compiled__(self) -> Any:
-        if self._proxy is None:
-            self._proxy = _CARRIER.make(*(getattr(self._arrays, name) for name in FIELDS))
-        return self._proxy
+        if self.lowered is None:
+            self.lowered = _CARRIER.make(*(getattr(self._arrays, name) for name in FIELDS))
+        return self.lowered
 
     def __announce__(self, args: tuple[Any, ...]) -> None:
         mesh = self.owner and self.owner()
@@ -222,10 +222,10 @@ class Topology:
             return
         arrays = Arrays()
         if compiled:
-            columns = _CARRIER.take(self._proxy)
+            columns = _CARRIER.take(self.lowered)
         else:
             columns = tuple(_jit.array_of(getattr(self._views, name)) for name in FIELDS)
-            self._proxy = None
+            self.lowered = None
         for name, column in zip(FIELDS, columns, strict=True):
             setattr(arrays, name, column)
         self._adopt(arrays)

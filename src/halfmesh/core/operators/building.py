@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from halfmesh._jit import kernel
+from halfmesh._jit import kernel, operation
 from halfmesh.core.navigation import (
     ccw_of,
     face_of,
@@ -76,7 +76,7 @@ def add_vertex(t: Any) -> int:
     return v
 
 
-@kernel
+@operation
 def try_add_vertex(t: Any) -> int:
     """Add an isolated vertex: its index, or the negative code."""
     if is_full(t, 1, 0, 0):
@@ -87,7 +87,7 @@ def try_add_vertex(t: Any) -> int:
 # -- an edge -------------------------------------------------------------------------------------------------------
 
 
-@kernel
+@operation
 def add_edge_status(t: Any, u: int, v: int) -> int:
     """Whether an edge may be added from `u` to `v`: ``OK`` or a code. A loop or a parallel edge may. Cost: O(1)."""
     if _is_closed(t, u, -1) or _is_closed(t, v, -1):
@@ -127,7 +127,7 @@ def add_edge_in(t: Any, gap_u: int, gap_v: int) -> int:
     return h
 
 
-@kernel
+@operation
 def try_add_edge(t: Any, u: int, v: int) -> int:
     """Add an edge if it may be: its halfedge from `u` to `v`, or the negative code."""
     status = vertex_status(t, u)
@@ -193,7 +193,7 @@ def find_free_between(t: Any, v: int, starting: int, before: int) -> int:
     return -1
 
 
-@kernel
+@operation
 def make_adjacent_status(t: Any, h_in: int, h_out: int) -> int:
     """Whether `h_out` may be made the next of `h_in`: ``OK`` or a code. Cost: the degree of their vertex."""
     v = origin_of(t, h_out)
@@ -226,7 +226,7 @@ def make_adjacent(t: Any, h_in: int, h_out: int) -> None:
         changed(t)
 
 
-@kernel
+@operation
 def try_make_adjacent(t: Any, h_in: int, h_out: int) -> int:
     """Make `h_out` the next of `h_in` if it may be: 0, or the negative code."""
     status = halfedge_status(t, h_in)
@@ -250,7 +250,7 @@ def _make_follow(t: Any, h_in: int, h_out: int, g: int) -> None:
 # -- a face --------------------------------------------------------------------------------------------------------
 
 
-@kernel
+@operation
 def try_add_face(t: Any, halfedges: Any) -> int:
     """Add a face with these halfedges, in this order: the face, or the negative code, and nothing changed.
 
@@ -268,7 +268,7 @@ def try_add_face(t: Any, halfedges: Any) -> int:
     return f
 
 
-@kernel
+@operation
 def try_add_face_of_vertices(t: Any, vertices: Any) -> int:
     """Add a face with these corners, in this order: the face, or the negative code, and nothing changed.
 
@@ -429,7 +429,7 @@ def remove_face(t: Any, f: int) -> None:
     changed(t)
 
 
-@kernel
+@operation
 def try_remove_face(t: Any, f: int) -> int:
     """Remove the face if there is one: 0, or the negative code."""
     status = face_status(t, f)
@@ -458,7 +458,7 @@ def remove_edge(t: Any, e: int) -> None:
     changed(t)
 
 
-@kernel
+@operation
 def try_remove_edge(t: Any, e: int) -> int:
     """Remove the edge if there is one: 0, or the negative code."""
     status = edge_status(t, e)
@@ -476,7 +476,7 @@ def remove_vertex(t: Any, v: int) -> None:
     changed(t)
 
 
-@kernel
+@operation
 def try_remove_vertex(t: Any, v: int) -> int:
     """Remove the vertex if there is one: 0, or the negative code."""
     status = vertex_status(t, v)

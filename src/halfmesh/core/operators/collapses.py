@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from halfmesh._jit import kernel
+from halfmesh._jit import kernel, operation
 from halfmesh.core.navigation import (
     ccw_of,
     face_of,
@@ -38,7 +38,7 @@ __all__ = ["collapse", "collapse_status", "try_collapse"]
 # -- may it? -------------------------------------------------------------------------------------------------------
 
 
-@kernel
+@operation
 def collapse_status(t: Any, h: int) -> int:
     """Whether `h` may be contracted: ``OK`` or a code.
 
@@ -230,7 +230,7 @@ def _note_wedges(t: Any, h: int, weight: float) -> None:
         note_union(t, CORNERS, on, o, weight)
 
 
-@kernel
+@operation
 def try_collapse(t: Any, h: int, weight: float) -> int:
     """Contract `h` if it may be: the vertex that stays, or the negative code."""
     status = halfedge_status(t, h)

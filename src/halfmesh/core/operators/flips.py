@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from halfmesh._jit import kernel
+from halfmesh._jit import kernel, operation
 from halfmesh.core.navigation import (
     face_of,
     halfedge_of_face,
@@ -22,7 +22,7 @@ from halfmesh.core.statuses import BOUNDARY_EDGE, OK, SAME_FACE, SMALL_FACE, WOU
 __all__ = ["flip", "flip_status", "try_flip"]
 
 
-@kernel
+@operation
 def flip_status(t: Any, e: int, allow_parallel: bool = False) -> int:
     """Whether the edge may be flipped: ``OK`` or a code. Cost: the smaller degree of the two new ends."""
     h = 2 * e
@@ -90,7 +90,7 @@ def flip(t: Any, e: int) -> None:
     changed(t)
 
 
-@kernel
+@operation
 def try_flip(t: Any, e: int, allow_parallel: bool) -> int:
     """Flip the edge if it may be: 0, or the negative code."""
     status = edge_status(t, e)

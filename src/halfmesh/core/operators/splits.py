@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from halfmesh._jit import kernel
+from halfmesh._jit import kernel, operation
 from halfmesh.core.navigation import (
     face_of,
     halfedge_of_face,
@@ -117,7 +117,7 @@ def _note_split_edge(t: Any, h: int, v: int, h2: int, a: int, b: int, n: int, we
         note_between(t, CORNERS, h ^ 1, h ^ 1, next_of(t, h ^ 1), 1.0 - weight)
 
 
-@kernel
+@operation
 def try_split_edge(t: Any, h: int, weight: float) -> int:
     """Split the edge of `h`: the new vertex, or the negative code."""
     status = halfedge_status(t, h)
@@ -194,7 +194,7 @@ def _note_spokes(t: Any, first: int, degree: int) -> None:
         spoke = next_of(t, next_of(t, out))
 
 
-@kernel
+@operation
 def try_split_face(t: Any, f: int) -> int:
     """Split the face at a point: the new vertex, or the negative code."""
     status = face_status(t, f)
@@ -208,7 +208,7 @@ def try_split_face(t: Any, f: int) -> int:
 # -- a face by a diagonal ------------------------------------------------------------------------------------------
 
 
-@kernel
+@operation
 def connect_status(t: Any, h: int, g: int, allow_parallel: bool = False) -> int:
     """Whether the origins of two halfedges of a face may be joined: ``OK`` or a code. Cost: the smaller degree."""
     if h == g:
@@ -264,7 +264,7 @@ def connect(t: Any, h: int, g: int) -> int:
     return x
 
 
-@kernel
+@operation
 def try_connect(t: Any, h: int, g: int, allow_parallel: bool) -> int:
     """Join two corners of a face: the new halfedge, or the negative code."""
     status = halfedge_status(t, h)
@@ -277,7 +277,7 @@ def try_connect(t: Any, h: int, g: int, allow_parallel: bool) -> int:
     return -status if status != OK else connect(t, h, g)
 
 
-@kernel
+@operation
 def join_faces_status(t: Any, h: int) -> int:
     """Whether the faces on both sides of `h` may be united: ``OK`` or a code. Cost: O(1)."""
     if face_of(t, h) < 0 or face_of(t, h ^ 1) < 0:
@@ -322,7 +322,7 @@ def join_faces(t: Any, h: int) -> int:
     return f
 
 
-@kernel
+@operation
 def try_join_faces(t: Any, h: int) -> int:
     """Unite the two faces beside `h`: the one that stays, or the negative code."""
     status = halfedge_status(t, h)

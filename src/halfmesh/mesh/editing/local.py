@@ -14,6 +14,7 @@ from halfmesh.core.operators.splits import (
     try_split_edge,
     try_split_face,
 )
+from halfmesh.core.statuses import DELETED_ELEMENT
 from halfmesh.errors import InvalidMeshError
 from halfmesh.mesh.editing.base import Base, as_point
 from halfmesh.mesh.elements import Edge, Face, Halfedge, Vertex
@@ -29,7 +30,7 @@ class Local(Base):
 
     def can_flip(self, edge: Edge | int, *, allow_parallel: bool = False) -> bool:
         """Whether :meth:`flip` would turn the edge. O(degree)."""
-        return self._act(flip_status, self._living(Edge, edge), allow_parallel) == 0
+        return self._act_on_two(flip_status, self._living(Edge, edge), allow_parallel) == 0
 
     def flip(self, edge: Edge | int, *, allow_parallel: bool = False) -> None:
         r"""Turn an edge counter-clockwise inside its two faces: each end moves on to the next corner.
@@ -69,10 +70,30 @@ class Local(Base):
         >>> mesh.face_vertices()[0].reshape(-1, 3).tolist()
         [[3, 2, 0], [2, 3, 1]]
         """
-        e = edge.index if type(edge) is Edge and edge._t is self._t else self._index(Edge, edge)
-        code = self._act(try_flip, e, allow_parallel)
+        e = self._index(Edge, edge)
+        code = self._act_on_two(try_flip, e, allow_parallel)
         if code < 0:
             self._refuse("flip", code, ("edge", e))
+
+    def try_flip(self, edge: Edge | int, *, allow_parallel: bool = False) -> bool:
+        """Turn the edge as :meth:`flip` does, if that may be: whether it was turned.
+
+        The quickest way to flip where one may from Python: asking and acting in one call, without an exception.
+
+        Examples
+        --------
+        >>> import halfmesh as hm
+        >>> mesh = hm.Mesh([[0, 1, 2], [1, 0, 3]])
+        >>> [mesh.try_flip(e) for e in mesh.edges]
+        [True, False, False, False, False]
+        """
+        e = edge.index if type(edge) is Edge and edge._t is self._t else self._index(Edge, edge)
+        code = self._act_on_two(try_flip, e, allow_parallel)
+        if code < -DELETED_ELEMENT:
+            return False
+        if code < 0:
+            self._refuse("flip", code, ("edge", e))
+        return True
 
     # -- splits ----------------------------------------------------------------------------------------------------
 
@@ -119,7 +140,7 @@ class Local(Base):
         """
         place = None if point is None else as_point(point)
         h = 2 * edge if type(edge) is int else self._halfedge_index(edge)
-        v = self._act(try_split_edge, h, _fraction(at))
+        v = self._act_on_two(try_split_edge, h, _fraction(at))
         if v < 0:
             self._refuse("split", v, ("edge", h >> 1))
         return self._placed(v, place)
@@ -327,7 +348,7 @@ class Local(Base):
         """
         place = None if point is None else as_point(point)
         h = self._index(Halfedge, halfedge)
-        v = self._act(try_collapse, h, _fraction(at))
+        v = self._act_on_two(try_collapse, h, _fraction(at))
         if v < 0:
             self._refuse("collapse", v, ("halfedge", h))
         return self._placed(v, place)
