@@ -87,3 +87,25 @@ FEW_VERTICES = _reason(
 REPEATED_VERTEX = _reason(
     "repeated_vertex", "a vertex is listed twice in succession; a side along a loop edge is given by its halfedge"
 )
+
+# vertices
+DIFFERENT_VERTICES = _reason("different_vertices", "the two halfedges do not leave the same vertex")
+ISOLATED_VERTEX = _reason("isolated_vertex", "no edge touches the vertex; remove_vertex takes it away")
+SEVERAL_GAPS = _reason(
+    "several_gaps", "the vertex touches more than one gap, so the faces around it can't become one; unweld it first"
+)
+
+# holes
+NOT_EXTERIOR = _reason("not_exterior", "a halfedge has a face on its left; it takes one that runs along a hole")
+DIFFERENT_LOOPS = _reason("different_loops", "the two halfedges do not run along the same hole")
+
+# seams and loops
+NOT_TRIANGLE = _reason("not_triangle", "a face beside the edge is not a triangle of three edges; split_edge takes any")
+NOT_TWO_SIDED = _reason("not_two_sided", "the hole does not lie between two edges; fill_hole, or stitch edge by edge")
+SAME_VERTEX = _reason("same_vertex", "the two halfedges leave the same vertex already")
+SAME_EDGE = _reason("same_edge", "the two halfedges are the sides of one edge already")
+NOT_A_CYCLE = _reason(
+    "not_a_cycle", "the halfedges do not run around once, through vertices that faces close all around and none twice"
+)
+DIFFERENT_DEGREES = _reason("different_degrees", "the two faces have not equally many sides; split their edges first")
+SHARED_VERTEX = _reason("shared_vertex", "the two faces have a vertex in common, where the surface would be pinched")

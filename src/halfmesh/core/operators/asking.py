@@ -8,12 +8,14 @@ from halfmesh._jit import kernel
 from halfmesh.core.navigation import (
     ccw_of,
     edge_slots,
+    face_of,
     face_slots,
     halfedge_of_face,
     halfedge_of_vertex,
     halfedge_slots,
     is_exterior,
     next_of,
+    prev_of,
     target_of,
     vertex_slots,
 )
@@ -21,9 +23,11 @@ from halfmesh.core.statuses import DELETED_ELEMENT, MISSING_ELEMENT, OK
 from halfmesh.core.topology import DELETED
 
 __all__ = [
+    "both_status",
     "edge_status",
     "face_status",
     "halfedge_status",
+    "is_face_triangle",
     "is_joined",
     "is_triangle",
     "sides_of",
@@ -48,6 +52,13 @@ def halfedge_status(t: Any, h: int) -> int:
     if h < 0 or h >= halfedge_slots(t):
         return MISSING_ELEMENT
     return DELETED_ELEMENT if next_of(t, h) == DELETED else OK
+
+
+@kernel
+def both_status(t: Any, h: int, g: int) -> int:
+    """OK, if both are living halfedges."""
+    status = halfedge_status(t, h)
+    return halfedge_status(t, g) if status == OK else status
 
 
 @kernel
@@ -76,6 +87,13 @@ def touches_gap(t: Any, v: int) -> bool:
 def is_triangle(t: Any, h: int) -> bool:
     """Whether the loop of `h`, around a face or a hole, has three sides."""
     return next_of(t, next_of(t, next_of(t, h))) == h
+
+
+@kernel
+def is_face_triangle(t: Any, h: int) -> bool:
+    """Whether the face of `h` is a triangle of three edges: not one that passes the edge of `h` twice."""
+    leaf = next_of(t, h) == h ^ 1 or prev_of(t, h) == h ^ 1
+    return face_of(t, h) >= 0 and not leaf and is_triangle(t, h)
 
 
 @kernel

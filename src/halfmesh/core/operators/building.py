@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 
 from halfmesh._jit import kernel, operation
+from halfmesh.core.attempts import begin_attempt, end_attempt
 from halfmesh.core.navigation import (
     ccw_of,
     face_of,
@@ -25,8 +26,9 @@ from halfmesh.core.navigation import (
     prev_of,
     target_of,
 )
-from halfmesh.core.operators.asking import edge_status, face_status, halfedge_status, vertex_status
-from halfmesh.core.pens import changed, link, rewind, set_face, set_halfedge_of_vertex
+from halfmesh.core.operators.asking import both_status, edge_status, face_status, halfedge_status, vertex_status
+from halfmesh.core.operators.gaps import show_gap
+from halfmesh.core.pens import changed, link, set_face, set_halfedge_of_vertex
 from halfmesh.core.slots import delete_edge, delete_face, delete_vertex, is_full, new_edge, new_face, new_vertex
 from halfmesh.core.statuses import (
     CLOSED_VERTEX,
@@ -40,7 +42,6 @@ from halfmesh.core.statuses import (
     TAKEN_HALFEDGE,
     TOO_LARGE,
 )
-from halfmesh.core.topology import EDGE_SLOTS, JOURNAL_SIZE, JOURNALING, N_EXTERIOR, REVISION
 
 __all__ = [
     "add_edge",
@@ -229,9 +230,7 @@ def make_adjacent(t: Any, h_in: int, h_out: int) -> None:
 @operation
 def try_make_adjacent(t: Any, h_in: int, h_out: int) -> int:
     """Make `h_out` the next of `h_in` if it may be: 0, or the negative code."""
-    status = halfedge_status(t, h_in)
-    if status == OK:
-        status = halfedge_status(t, h_out)
+    status = both_status(t, h_in, h_out)
     if status == OK:
         status = make_adjacent_status(t, h_in, h_out)
     if status == OK:
@@ -260,11 +259,9 @@ def try_add_face(t: Any, halfedges: Any) -> int:
     status = _face_status(t, halfedges)
     if status != OK:
         return -status
-    journaling, mark, n_edges = t.counts[JOURNALING], t.counts[JOURNAL_SIZE], t.counts[EDGE_SLOTS]
-    n_exterior, revision = t.counts[N_EXTERIOR], t.counts[REVISION]
-    t.counts[JOURNALING] = 1
+    before = begin_attempt(t)
     f = _lay_face(t, halfedges)
-    _settle(t, f >= 0, journaling, mark, n_edges, n_exterior, revision)
+    end_attempt(t, before, f >= 0)
     return f
 
 
@@ -279,9 +276,7 @@ def try_add_face_of_vertices(t: Any, vertices: Any) -> int:
     status = _corners_status(t, vertices)
     if status != OK:
         return -status
-    journaling, mark, n_edges = t.counts[JOURNALING], t.counts[JOURNAL_SIZE], t.counts[EDGE_SLOTS]
-    n_exterior, revision = t.counts[N_EXTERIOR], t.counts[REVISION]
-    t.counts[JOURNALING] = 1
+    before = begin_attempt(t)
     halfedges = np.empty(n, np.int64)
     f = face_slots(t)  # marks what the face has chosen already, until all are chosen
     for i in range(n):
@@ -297,7 +292,7 @@ def try_add_face_of_vertices(t: Any, vertices: Any) -> int:
         f = _lay_face(t, halfedges)
     else:
         f = -status
-    _settle(t, f >= 0, journaling, mark, n_edges, n_exterior, revision)
+    end_attempt(t, before, f >= 0)
     return f
 
 
@@ -379,36 +374,9 @@ def _lay_face(t: Any, halfedges: Any) -> int:
             _make_follow(t, h_in, h_out, g)
     f = new_face(t, int(halfedges[0]))
     for i in range(n):
-        _show_gap(t, origin_of(t, int(halfedges[i])))
+        show_gap(t, origin_of(t, int(halfedges[i])))
     changed(t)
     return f
-
-
-@kernel
-def _show_gap(t: Any, v: int) -> None:
-    """Make the halfedge of a vertex exterior, if it touches a gap. Cost: the degree, if it was not."""
-    start = halfedge_of_vertex(t, v)
-    if is_exterior(t, start):
-        return
-    x = ccw_of(t, start)
-    while x != start:
-        if is_exterior(t, x):
-            set_halfedge_of_vertex(t, v, x)
-            return
-        x = ccw_of(t, x)
-
-
-@kernel
-def _settle(t: Any, done: bool, journaling: int, mark: int, n_edges: int, n_exterior: int, revision: int) -> None:
-    """End what was begun with the journal on: keep it, or undo it bit for bit."""
-    if not done:
-        rewind(t, mark)
-        t.counts[EDGE_SLOTS] = n_edges
-        t.counts[N_EXTERIOR] = n_exterior
-        t.counts[REVISION] = revision
-    if journaling == 0:
-        t.counts[JOURNAL_SIZE] = mark
-    t.counts[JOURNALING] = journaling
 
 
 # -- taking away ---------------------------------------------------------------------------------------------------

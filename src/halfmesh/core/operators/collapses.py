@@ -8,17 +8,17 @@ from halfmesh._jit import kernel, operation
 from halfmesh.core.navigation import (
     ccw_of,
     face_of,
-    halfedge_of_face,
     halfedge_of_vertex,
     next_of,
     origin_of,
     prev_of,
     target_of,
 )
-from halfmesh.core.notes import CORNERS, EDGES, VERTICES, is_noting, note_copy, note_union, note_wedge
-from halfmesh.core.operators.asking import halfedge_status, is_joined, is_triangle, touches_gap
-from halfmesh.core.pens import changed, link, set_face, set_halfedge_of_face, set_halfedge_of_vertex, set_origin
-from halfmesh.core.slots import delete_edge, delete_face, delete_vertex
+from halfmesh.core.operators.asking import halfedge_status, is_face_triangle, is_joined, is_triangle, touches_gap
+from halfmesh.core.operators.gaps import close_between
+from halfmesh.core.operators.vertices import contract, note_contraction
+from halfmesh.core.pens import changed, set_halfedge_of_vertex
+from halfmesh.core.slots import delete_face
 from halfmesh.core.statuses import (
     LOOP_EDGE,
     OK,
@@ -53,7 +53,7 @@ def collapse_status(t: Any, h: int) -> int:
         status = _side_status(t, h ^ side)
         if status != OK:
             return status
-    left, right = _is_face_triangle(t, h), _is_face_triangle(t, o)
+    left, right = is_face_triangle(t, h), is_face_triangle(t, o)
     if left and right and target_of(t, next_of(t, h)) == target_of(t, next_of(t, o)):
         return SHARED_APEX
     if face_of(t, h) >= 0 and face_of(t, o) >= 0 and touches_gap(t, a) and touches_gap(t, b):
@@ -72,13 +72,6 @@ def collapse_status(t: Any, h: int) -> int:
 
 
 @kernel
-def _is_face_triangle(t: Any, h: int) -> bool:
-    """Whether the face of `h` is a triangle of three edges: not one that passes the edge of `h` twice."""
-    leaf = next_of(t, h) == h ^ 1 or prev_of(t, h) == h ^ 1
-    return face_of(t, h) >= 0 and not leaf and is_triangle(t, h)
-
-
-@kernel
 def _side_status(t: Any, h: int) -> int:
     """What the face or the hole on the left of `h` has against it."""
     n, p = next_of(t, h), prev_of(t, h)
@@ -91,7 +84,7 @@ def _side_status(t: Any, h: int) -> int:
     f, g = face_of(t, n ^ 1), face_of(t, p ^ 1)
     if f < 0 and g < 0:
         return WOULD_LEAVE_WIRE
-    folds = next_of(t, p ^ 1) ^ 1 == prev_of(t, n ^ 1) and _is_face_triangle(t, n ^ 1) and _is_face_triangle(t, p ^ 1)
+    folds = next_of(t, p ^ 1) ^ 1 == prev_of(t, n ^ 1) and is_face_triangle(t, n ^ 1) and is_face_triangle(t, p ^ 1)
     return WOULD_FOLD if folds else OK
 
 
@@ -128,106 +121,27 @@ def collapse(t: Any, h: int, weight: float = 1.0) -> int:
           \    \  h / \            \  /   \
     """
     o = h ^ 1
-    a, b = origin_of(t, h), origin_of(t, o)
     n, p, on, op = next_of(t, h), prev_of(t, h), next_of(t, o), prev_of(t, o)
-    left, right = _is_face_triangle(t, h), _is_face_triangle(t, o)
-    note_union(t, VERTICES, b, a, 1.0 - weight)
-    if is_noting(t, CORNERS):
-        _note_wedges(t, h, weight)
-    gap = _gap_after(t, h)
-    x = ccw_of(t, h)
-    while x != h:
-        set_origin(t, x, b)
-        x = ccw_of(t, x)
-    if face_of(t, h) >= 0 and halfedge_of_face(t, face_of(t, h)) == h:
-        set_halfedge_of_face(t, face_of(t, h), n if n != o else on)
-    if face_of(t, o) >= 0 and halfedge_of_face(t, face_of(t, o)) == o:
-        set_halfedge_of_face(t, face_of(t, o), on if on != h else n)
-    if p == o:  # a is a leaf
-        link(t, op, n)
-    elif n == o:  # b is a leaf
-        link(t, p, on)
-    else:
-        link(t, p, n)
-        link(t, op, on)
-    set_halfedge_of_vertex(t, b, gap)
-    delete_edge(t, h)
-    delete_vertex(t, a)
+    left, right = is_face_triangle(t, h), is_face_triangle(t, o)
+    note_contraction(t, h, weight)
+    b = contract(t, h)
     if left:
-        _close(t, n, p)
+        _close_face(t, n, p)
     if right:
-        _close(t, op, on)
+        _close_face(t, op, on)
     changed(t)
     return b
 
 
 @kernel
-def _gap_after(t: Any, h: int) -> int:
-    """The halfedge that the vertex that stays will have: exterior, if either end touches a gap; -1 if none is left."""
-    o = h ^ 1
-    va, vb = halfedge_of_vertex(t, origin_of(t, h)), halfedge_of_vertex(t, origin_of(t, o))
-    n, on = next_of(t, h), next_of(t, o)
-    if vb != o and face_of(t, vb) < 0:
-        return vb
-    if va != h and face_of(t, va) < 0:
-        return va
-    if n != o and (face_of(t, n) < 0 or on == h):
-        return n
-    if on != h and (face_of(t, on) < 0 or n == o):
-        return on
-    return n if n != o else -1
-
-
-@kernel
-def _close(t: Any, keep: int, drop: int) -> None:
-    r"""Close a face of two sides: its two edges become the one of `keep`, which takes the place behind `drop`.
-
-    ::
-
-           keep
-        b ------> c            keep
-          <------      -->   b ----> c
-           drop
-          ~~~~~~> q = drop ^ 1, with the face beyond
-    """
-    q, f = drop ^ 1, face_of(t, keep)
-    b, c, beyond, before, after = origin_of(t, keep), target_of(t, keep), face_of(t, q), prev_of(t, q), next_of(t, q)
-    if after == q:
-        link(t, keep, keep)
-    else:
-        link(t, before, keep)
-        link(t, keep, after)
-    set_face(t, keep, beyond)
-    if beyond >= 0 and halfedge_of_face(t, beyond) == q:
-        set_halfedge_of_face(t, beyond, keep)
-    if halfedge_of_vertex(t, b) == q or (beyond < 0 and face_of(t, halfedge_of_vertex(t, b)) >= 0):
+def _close_face(t: Any, keep: int, drop: int) -> None:
+    """Close a face of two sides; cost: O(1)."""
+    f = face_of(t, keep)
+    close_between(t, keep, drop)
+    b, beyond = origin_of(t, keep), face_of(t, keep)
+    if beyond < 0 and face_of(t, halfedge_of_vertex(t, b)) >= 0:
         set_halfedge_of_vertex(t, b, keep)
-    if halfedge_of_vertex(t, c) == drop:
-        set_halfedge_of_vertex(t, c, keep ^ 1)
-    note_union(t, EDGES, keep >> 1, drop >> 1, 0.5)
-    note_copy(t, CORNERS, keep, q)
-    delete_edge(t, drop)
     delete_face(t, f)
-
-
-@kernel
-def _note_wedges(t: Any, h: int, weight: float) -> None:
-    """The corners at both ends follow the side of the edge that they share their value with; the sides' own last."""
-    o = h ^ 1
-    n, on = next_of(t, h), next_of(t, o)
-    x = ccw_of(t, h)
-    while x != h:
-        if x != on:
-            note_wedge(t, x, h, n, on, o, weight)
-        x = ccw_of(t, x)
-    x = ccw_of(t, o)
-    while x != o:
-        if x != n:
-            note_wedge(t, x, n, h, o, on, 1.0 - weight)
-        x = ccw_of(t, x)
-    if n != o and on != h:
-        note_union(t, CORNERS, n, h, 1.0 - weight)
-        note_union(t, CORNERS, on, o, weight)
 
 
 @operation

@@ -28,7 +28,14 @@ from halfmesh.core.notes import (
     note_part,
     note_union,
 )
-from halfmesh.core.operators.asking import face_status, halfedge_status, is_joined, sides_of
+from halfmesh.core.operators.asking import (
+    both_status,
+    face_status,
+    halfedge_status,
+    is_face_triangle,
+    is_joined,
+    sides_of,
+)
 from halfmesh.core.pens import (
     changed,
     link,
@@ -42,6 +49,7 @@ from halfmesh.core.statuses import (
     BOUNDARY_EDGE,
     DIFFERENT_FACES,
     NO_FACE,
+    NOT_TRIANGLE,
     OK,
     SAME_CORNER,
     SAME_FACE,
@@ -57,10 +65,13 @@ __all__ = [
     "join_faces",
     "join_faces_status",
     "split_edge",
+    "split_edge_triangular",
+    "split_edge_triangular_status",
     "split_face",
     "try_connect",
     "try_join_faces",
     "try_split_edge",
+    "try_split_edge_triangular",
     "try_split_face",
 ]
 
@@ -124,6 +135,56 @@ def try_split_edge(t: Any, h: int, weight: float) -> int:
     if status == OK and is_full(t, 1, 1, 0):
         status = TOO_LARGE
     return -status if status != OK else split_edge(t, h, weight)
+
+
+@operation
+def split_edge_triangular_status(t: Any, h: int, allow_parallel: bool = False) -> int:
+    """Whether the triangles beside `h` may be split with its edge: ``OK`` or a code. Cost: O(1)."""
+    o = h ^ 1
+    for side in (h, o):
+        if face_of(t, side) >= 0:
+            if not is_face_triangle(t, side):
+                return NOT_TRIANGLE
+            c = origin_of(t, prev_of(t, side))
+            if not allow_parallel and (c == origin_of(t, h) or c == origin_of(t, o)):
+                return WOULD_BE_PARALLEL
+    if not allow_parallel and face_of(t, h) >= 0 and face_of(t, o) >= 0:
+        return WOULD_BE_PARALLEL if origin_of(t, prev_of(t, h)) == origin_of(t, prev_of(t, o)) else OK
+    return OK
+
+
+@kernel
+def split_edge_triangular(t: Any, h: int, weight: float = 0.5) -> int:
+    r"""Put a vertex into the edge of `h` and join it to the third corners of the triangles beside; returns it.
+
+    ::
+
+             c                      c
+           /   \                  / | \         new edges, in this order: v -> b, v -> c, v -> d, those that there are;
+         /       \              /   ^   \       new faces: that of h (the side of a), that of o2 (the side of b)
+        a --h----> b     -->   a-h-> v --> b
+         \   o   /              \   v   /
+           \   /                  \ | /        Cost: O(1).
+             d                      d
+    """
+    o = h ^ 1
+    v = split_edge(t, h, weight)
+    if face_of(t, h) >= 0:
+        connect(t, next_of(t, h), prev_of(t, h))
+    if face_of(t, o) >= 0:
+        connect(t, o, next_of(t, next_of(t, o)))
+    return v
+
+
+@operation
+def try_split_edge_triangular(t: Any, h: int, weight: float, allow_parallel: bool) -> int:
+    """Split the edge of `h` and the triangles beside: the new vertex, or the negative code."""
+    status = halfedge_status(t, h)
+    if status == OK:
+        status = split_edge_triangular_status(t, h, allow_parallel)
+    if status == OK and is_full(t, 1, 3, 2):
+        status = TOO_LARGE
+    return -status if status != OK else split_edge_triangular(t, h, weight)
 
 
 # -- a face at a point ---------------------------------------------------------------------------------------------
@@ -267,9 +328,7 @@ def connect(t: Any, h: int, g: int) -> int:
 @operation
 def try_connect(t: Any, h: int, g: int, allow_parallel: bool) -> int:
     """Join two corners of a face: the new halfedge, or the negative code."""
-    status = halfedge_status(t, h)
-    if status == OK:
-        status = halfedge_status(t, g)
+    status = both_status(t, h, g)
     if status == OK:
         status = connect_status(t, h, g, allow_parallel)
     if status == OK and is_full(t, 0, 1, 1):

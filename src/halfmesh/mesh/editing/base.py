@@ -11,14 +11,16 @@ from halfmesh.core.statuses import DELETED_ELEMENT, MISSING_ELEMENT, REASONS
 from halfmesh.core.topology import NEWS
 from halfmesh.errors import ElementError, InvalidMeshError, StaleElementError, TopologyError
 from halfmesh.mesh.counts import Counted
-from halfmesh.mesh.elements import Edge, Element, Halfedge, made
+from halfmesh.mesh.elements import Edge, Element, Halfedge, Vertex, made
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
+
     from numpy.typing import ArrayLike, NDArray
 
     from halfmesh.mesh.attributes import AttributeTable
 
-__all__ = ["Base", "as_point"]
+__all__ = ["Base", "as_fraction", "as_point"]
 
 E = TypeVar("E", bound=Element)
 
@@ -42,8 +44,22 @@ class Base(Counted):
         return getattr(self, kind.plural).resolve(element)  # type: ignore[no-any-return]
 
     def _halfedge_index(self, element: Any) -> int:
-        """The same for operators that take a halfedge, or an edge for its first halfedge."""
-        return 2 * self._index(Edge, element) if isinstance(element, Edge) else self._index(Halfedge, element)
+        """The same for operators of an edge, that take a halfedge too: an edge or an int stands for its first."""
+        if isinstance(element, Halfedge):
+            return self._index(Halfedge, element)
+        return 2 * self._index(Edge, element)
+
+    def _living_halfedge(self, element: Any) -> int:
+        if isinstance(element, Halfedge):
+            return self._living(Halfedge, element)
+        return 2 * self._living(Edge, element)
+
+    def _halfedges(self, elements: Iterable[Any]) -> NDArray[np.int64]:
+        """The indices of many of them, where an edge stands for its first; ints are halfedges."""
+        return np.array(
+            [2 * self._index(Edge, x) if isinstance(x, Edge) else self._index(Halfedge, x) for x in elements],
+            dtype=np.int64,
+        )
 
     def _living(self, kind: type[Element], element: Any) -> int:
         """The index of what is known to live: for questions, whose kernels do not ask that."""
@@ -87,6 +103,12 @@ class Base(Counted):
     def _made(self, kind: type[E], index: int) -> E:
         return made(kind, self._t, index)
 
+    def _placed(self, v: int, place: NDArray[np.float64] | None) -> Vertex:
+        """The vertex, put there."""
+        if place is not None:
+            self.vertex_data["points"][v] = place
+        return self._made(Vertex, v)
+
     def _refuse(self, doing: str, code: int, *elements: tuple[str, Any]) -> NoReturn:
         """Raise what the code of a refusal means; nothing was changed."""
         name, sentence = REASONS[abs(code)]
@@ -99,6 +121,13 @@ class Base(Counted):
 
     def _follow(self, args: tuple[Any, ...] = ()) -> None:
         raise NotImplementedError
+
+
+def as_fraction(at: float) -> float:
+    """A place on an edge: from 0 to 1."""
+    if not 0.0 <= at <= 1.0:  # which NaN is not
+        raise InvalidMeshError(f"at={at!r} is no place on the edge: it runs from 0 to 1", reason="bad_parameter")
+    return float(at)
 
 
 def as_point(point: ArrayLike) -> NDArray[np.float64]:

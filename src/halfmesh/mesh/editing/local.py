@@ -1,22 +1,19 @@
-"""Local operators: they change the mesh around one edge, face or vertex."""
+"""The operators of remeshing: flip, split, collapse."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from halfmesh.core.operators.collapses import collapse_status, try_collapse
 from halfmesh.core.operators.flips import flip_status, try_flip
 from halfmesh.core.operators.splits import (
-    connect_status,
-    join_faces_status,
-    try_connect,
-    try_join_faces,
+    split_edge_triangular_status,
     try_split_edge,
+    try_split_edge_triangular,
     try_split_face,
 )
 from halfmesh.core.statuses import DELETED_ELEMENT
-from halfmesh.errors import InvalidMeshError
-from halfmesh.mesh.editing.base import Base, as_point
+from halfmesh.mesh.editing.base import Base, as_fraction, as_point
 from halfmesh.mesh.elements import Edge, Face, Halfedge, Vertex
 
 if TYPE_CHECKING:
@@ -26,7 +23,7 @@ __all__ = ["Local"]
 
 
 class Local(Base):
-    """Flips, splits, collapses, and their inverses."""
+    """Flips, splits and collapses."""
 
     def can_flip(self, edge: Edge | int, *, allow_parallel: bool = False) -> bool:
         """Whether :meth:`flip` would turn the edge. O(degree)."""
@@ -139,11 +136,85 @@ class Local(Base):
         (2, 13, [5, 5])
         """
         place = None if point is None else as_point(point)
-        h = 2 * edge if type(edge) is int else self._halfedge_index(edge)
-        v = self._act_on_two(try_split_edge, h, _fraction(at))
+        h = self._halfedge_index(edge)
+        v = self._act_on_two(try_split_edge, h, as_fraction(at))
         if v < 0:
             self._refuse("split", v, ("edge", h >> 1))
         return self._placed(v, place)
+
+    def can_split_edge(self, edge: Edge | Halfedge | int) -> bool:
+        """Whether :meth:`split_edge` would put a vertex into the edge: always, if it lives."""
+        return self._living_halfedge(edge) >= 0
+
+    def can_split_edge_triangular(self, edge: Edge | Halfedge | int, *, allow_parallel: bool = False) -> bool:
+        """Whether :meth:`split_edge_triangular` would split the edge. O(1)."""
+        return self._act_on_two(split_edge_triangular_status, self._living_halfedge(edge), allow_parallel) == 0
+
+    def split_edge_triangular(
+        self,
+        edge: Edge | Halfedge | int,
+        point: ArrayLike | None = None,
+        *,
+        at: float = 0.5,
+        allow_parallel: bool = False,
+    ) -> Vertex:
+        r"""Put a vertex into an edge and join it to the third corners of the triangles beside.
+
+        ::
+
+               c                    c
+             /   \                / | \
+            a --- b      -->      a--v--b
+             \   /                \ | /
+               d                    d
+
+        Parameters
+        ----------
+        edge : Edge or int, or Halfedge
+            An edge stands for its halfedge, ``2 * edge``.
+        point : (3,) or (2,) array_like of float, optional
+            Where the vertex is to lie. If not given it lies on the edge.
+        at : float
+            How far along the halfedge, from its origin (0) to its target (1).
+        allow_parallel : bool
+            Also where both triangles have the same third corner.
+
+        Returns
+        -------
+        Vertex
+            The new vertex, the last one. New edges: to the target, left, right; new faces: left, right of the origin's.
+
+        Raises
+        ------
+        TopologyError
+            A face beside the edge is no triangle.
+        StaleElementError, ElementError
+            The edge was deleted, or there is none.
+        InvalidMeshError
+            The point is not finite, or `at` is not between 0 and 1.
+
+        Notes
+        -----
+        For k triangles beside: V + 1, E + 1 + k, F + k; components and boundary loops stay. O(1).
+
+        Examples
+        --------
+        >>> import halfmesh as hm
+        >>> mesh = hm.shapes.tetrahedron()
+        >>> v = mesh.split_edge_triangular(0)
+        >>> v.degree, mesh.n_faces, mesh.is_triangular
+        (4, 6, True)
+        """
+        place = None if point is None else as_point(point)
+        h = self._halfedge_index(edge)
+        v = self._act(try_split_edge_triangular, h, as_fraction(at), allow_parallel)
+        if v < 0:
+            self._refuse("split", v, ("edge", h >> 1))
+        return self._placed(v, place)
+
+    def can_split_face(self, face: Face | int) -> bool:
+        """Whether :meth:`split_face` would put a vertex into the face: always, if it lives."""
+        return self._living(Face, face) >= 0
 
     def split_face(self, face: Face | int, point: ArrayLike | None = None) -> Vertex:
         r"""Put a vertex into a face and join it to every corner.
@@ -192,103 +263,6 @@ class Local(Base):
         if v < 0:
             self._refuse("split", v, ("face", f))
         return self._placed(v, place)
-
-    def can_connect(self, a: Halfedge | int, b: Halfedge | int, *, allow_parallel: bool = False) -> bool:
-        """Whether :meth:`connect` would join the two corners. O(degree)."""
-        h, g = self._living(Halfedge, a), self._living(Halfedge, b)
-        return self._act(connect_status, h, g, allow_parallel) == 0
-
-    def connect(self, a: Halfedge | int, b: Halfedge | int, *, allow_parallel: bool = False) -> Halfedge:
-        r"""Split a face by a diagonal: join the origins of two of its halfedges.
-
-        ::
-
-            . <----- b              . <----- b
-            |    f   ^              |  f  /  ^
-            v        |     -->      v   /    |
-            a -----> .              a -----> .
-
-        Parameters
-        ----------
-        a, b : Halfedge or int
-            Halfedges of one face; each names the corner at its origin.
-        allow_parallel : bool
-            Also where the new edge is a loop, or joins two vertices that are joined already.
-
-        Returns
-        -------
-        Halfedge
-            The new halfedge from `a`, of the last edge. The new face, the last one, is on its left.
-
-        Raises
-        ------
-        TopologyError
-            They are the same corner, of different faces or of none; or the edge would be a loop or parallel.
-        StaleElementError, ElementError
-            One of them was deleted, or there is none.
-
-        Notes
-        -----
-        E + 1, F + 1; vertices, components and boundary loops stay. :meth:`join_faces` undoes it. O(degree).
-
-        Examples
-        --------
-        >>> import halfmesh as hm
-        >>> mesh = hm.Mesh([[0, 1, 2, 3]])
-        >>> h = mesh.connect(mesh.find_halfedge(0, 1), mesh.find_halfedge(2, 3))
-        >>> h.origin, h.target, [v.index for v in h.face.vertices()]
-        (Vertex(0), Vertex(2), [0, 2, 3])
-        """
-        h, g = self._index(Halfedge, a), self._index(Halfedge, b)
-        x = self._act(try_connect, h, g, allow_parallel)
-        if x < 0:
-            self._refuse("connect", x, ("halfedge", h), ("halfedge", g))
-        return self._made(Halfedge, x)
-
-    def can_join_faces(self, edge: Edge | Halfedge | int) -> bool:
-        """Whether :meth:`join_faces` would unite the faces beside the edge. O(1)."""
-        kind = Halfedge if isinstance(edge, Halfedge) else Edge
-        i = self._living(kind, edge)
-        return self._act(join_faces_status, i if kind is Halfedge else 2 * i) == 0
-
-    def join_faces(self, edge: Edge | Halfedge | int) -> Face:
-        r"""Remove an edge between two faces, which become one.
-
-        Parameters
-        ----------
-        edge : Edge or int, or Halfedge
-            An edge stands for its halfedge, ``2 * edge``. The face on the left of the halfedge stays.
-
-        Returns
-        -------
-        Face
-            The face that stays.
-
-        Raises
-        ------
-        TopologyError
-            A face is missing on one side, or the same one lies on both, or one of them has no other side.
-        StaleElementError, ElementError
-            The edge was deleted, or there is none.
-
-        Notes
-        -----
-        E - 1, F - 1; vertices, components and boundary loops stay. :meth:`connect` undoes it. O(degree) of the face
-        that goes.
-
-        Examples
-        --------
-        >>> import halfmesh as hm
-        >>> mesh = hm.Mesh([[0, 1, 2], [0, 2, 3]])
-        >>> f = mesh.join_faces(mesh.find_halfedge(0, 2))
-        >>> f.degree, mesh.n_faces, mesh.n_edges
-        (4, 1, 4)
-        """
-        h = 2 * edge if type(edge) is int else self._halfedge_index(edge)
-        code = self._act(try_join_faces, h)
-        if code < 0:
-            self._refuse("join the faces beside", code, ("edge", h >> 1))
-        return self._made(Face, code)
 
     # -- collapse --------------------------------------------------------------------------------------------------
 
@@ -348,18 +322,7 @@ class Local(Base):
         """
         place = None if point is None else as_point(point)
         h = self._index(Halfedge, halfedge)
-        v = self._act_on_two(try_collapse, h, _fraction(at))
+        v = self._act_on_two(try_collapse, h, as_fraction(at))
         if v < 0:
             self._refuse("collapse", v, ("halfedge", h))
         return self._placed(v, place)
-
-    def _placed(self, v: int, place: Any) -> Vertex:
-        if place is not None:
-            self.vertex_data["points"][v] = place
-        return self._made(Vertex, v)
-
-
-def _fraction(at: float) -> float:
-    if not 0.0 <= at <= 1.0:  # which NaN is not
-        raise InvalidMeshError(f"at={at!r} is no place on the edge: it runs from 0 to 1", reason="bad_parameter")
-    return float(at)
