@@ -137,6 +137,7 @@ def dispatcher(
     bounds: bool = False,
     inline: bool = False,
     nogil: bool = True,
+    from_python: bool = True,
     salt: str = "",
 ) -> Any:
     """The Numba dispatcher of a function.
@@ -157,6 +158,8 @@ def dispatcher(
         Write the code into every caller.
     nogil : bool
         Let other threads run while it does.
+    from_python : bool
+        Also make what Python needs to call it; for rules, which only kernels call, that would be half the code.
     salt : str
         What else the cache key depends on.
     """
@@ -164,7 +167,14 @@ def dispatcher(
     source = source or function
     if unchecked:
         source = with_column_reads(source, _checked() if numba().config.BOUNDSCHECK else _unchecked())
-    made = numba().njit(error_model="numpy", nogil=nogil, boundscheck=bounds or None, forceinline=inline)(source)
+    made = numba().njit(
+        error_model="numpy",
+        nogil=nogil,
+        boundscheck=bounds or None,
+        forceinline=inline,
+        no_cpython_wrapper=not from_python,
+        no_cfunc_wrapper=True,  # for calls from C, which there are none of
+    )(source)
     cache = _disk_cache(source, fingerprint(function, salt, _own_source(), *_versions())) if keep else None
     if cache is not None:
         made._cache = cache
