@@ -64,9 +64,14 @@ def _move(mesh, rng):
     mesh.vertices[_vertex(mesh, rng)].point = [rng.random(), 0.0, 1.0]
 
 
-def _connect(mesh, rng):
+def _in_a_row(mesh, rng):
     h = mesh.halfedges[_halfedge(mesh, rng)]
-    mesh.connect(h, h.next.next)
+    return h, rng.choice([h.next, h.next.next])
+
+
+def _around(mesh, rng):
+    h = mesh.halfedges[_halfedge(mesh, rng)]
+    return h, rng.choice([h.ccw, h.ccw.ccw])
 
 
 _OPERATORS = (
@@ -83,7 +88,19 @@ _OPERATORS = (
     lambda mesh, rng: mesh.remove_face(_face(mesh, rng)),
     lambda mesh, rng: mesh.remove_edge(_halfedge(mesh, rng) // 2),
     lambda mesh, rng: mesh.remove_vertex(_vertex(mesh, rng)),
-    _connect,
+    lambda mesh, rng: mesh.dissolve_edge(_halfedge(mesh, rng) // 2),
+    lambda mesh, rng: mesh.dissolve_vertex(_vertex(mesh, rng)),
+    lambda mesh, rng: mesh.make_hole(_face(mesh, rng)),
+    lambda mesh, rng: mesh.fill_hole(_halfedge(mesh, rng)),
+    lambda mesh, rng: mesh.open_edge(_halfedge(mesh, rng) // 2),
+    lambda mesh, rng: mesh.zip_hole(_halfedge(mesh, rng)),
+    lambda mesh, rng: mesh.join_vertices(_halfedge(mesh, rng)),
+    lambda mesh, rng: mesh.add_vertex_and_face_to_boundary(*_in_a_row(mesh, rng)),
+    lambda mesh, rng: mesh.split_vertex(*_around(mesh, rng), [rng.random(), 3.0]),
+    lambda mesh, rng: mesh.unweld(*_around(mesh, rng)),
+    lambda mesh, rng: mesh.cut(_in_a_row(mesh, rng)),
+    lambda mesh, rng: mesh.stitch(*_in_a_row(mesh, rng)),
+    lambda mesh, rng: mesh.connect(*_in_a_row(mesh, rng)),
     _move,
 )
 
