@@ -10,6 +10,7 @@ Rows of new elements need no copy: they go back to the default.
 from __future__ import annotations
 
 import sys
+from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -23,6 +24,8 @@ if TYPE_CHECKING:
 
 __all__ = ["Keeper"]
 
+_Part = tuple[Any, NDArray[Any]]  # which rows (one, the first as a slice, or an array of indices), and their values
+
 
 class _Kept:
     """One column as it was: the column itself, its array and policy, and the rows that may have been written since."""
@@ -33,7 +36,7 @@ class _Kept:
         self.name, self.column = name, column
         self.values: NDArray[Any] = column.values
         self.policy: Policy = column.policy
-        self.parts: list[tuple[Any, NDArray[Any]]] = []  # (which rows, their values), to be put back last first
+        self.parts: list[_Part] = []  # to be put back last first
         self.is_whole = False
 
     def put_back(self, n: int, n_written: int, n_around: int) -> Column:
@@ -113,7 +116,7 @@ class Keeper:
         for key, kept in inner._kept.items():
             mine = self._kept.get(key)
             if mine is not None and not mine.is_whole:
-                mine.parts += kept.parts if inner.n == self.n else [_cut(part, self.n) for part in kept.parts]
+                mine.parts += kept.parts if inner.n == self.n else _before(self.n, kept.parts)
                 mine.is_whole = kept.is_whole
 
     @property
@@ -148,14 +151,15 @@ class Keeper:
         return n_columns, n_arrays
 
 
-def _cut(part: tuple[Any, NDArray[Any]], n: int) -> tuple[Any, NDArray[Any]]:
-    """The rows before `n` of what was kept."""
-    rows, values = part
-    if isinstance(rows, slice):
-        return slice(0, n), values[:n]
-    if isinstance(rows, int):
-        return part if rows < n else (slice(0, 0), values[None][:0])
-    return rows[rows < n], values[rows < n]
+def _before(n: int, parts: list[_Part]) -> Iterator[_Part]:
+    """What was kept of the first `n` rows."""
+    for rows, values in parts:
+        if isinstance(rows, slice):
+            yield slice(0, min(n, len(values))), values[:n]
+        elif not isinstance(rows, int):
+            yield rows[rows < n], values[rows < n]
+        elif rows < n:
+            yield rows, values
 
 
 def _n_references(value: Any) -> int:
