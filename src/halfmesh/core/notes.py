@@ -44,6 +44,7 @@ __all__ = [
     "note_part",
     "note_union",
     "note_wedge",
+    "noted_elements",
 ]
 
 BETWEEN, PART, UNION, COPY, WEDGE = range(5)
@@ -129,3 +130,15 @@ def note_wedge(t: Any, corner: int, here: int, there: int, here_too: int, there_
         add_source(t, there, weight)
         add_source(t, here_too, 1.0 - weight)
         add_source(t, there_too, weight)
+
+
+@kernel
+def noted_elements(notes: Any, size: int, kind: int, below: int, out: Any) -> int:
+    """The elements of a kind, of those before `below`, whose values the notes are going to change; how many."""
+    place = n = 0
+    while place < size:
+        if notes[place + 1] == kind and notes[place + 2] < below:
+            out[n] = notes[place + 2]
+            n += 1
+        place += 4 + notes[place + 3]
+    return n

@@ -68,7 +68,7 @@ class Building(Base):
         if v < 0:
             self._refuse("add", v, ("a", "vertex"))
         if place is not None:
-            self.vertex_data["points"][v] = place
+            self.vertex_data.row("points", v)[:] = place
             self.has_points = True
         return self._made(Vertex, v)
 
