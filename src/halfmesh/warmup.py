@@ -76,6 +76,7 @@ def jobs() -> list[Job]:
         ("reading OFF in other forms", _read_other_forms),
         ("changing", lambda _: _change()),
         ("cutting and sewing", lambda _: _sew()),
+        ("triangulating", lambda _: _triangulate()),
         ("walking in kernels", lambda _: _walk(hm.shapes.cube(), 0)),
         ("smoothing", lambda _: _smooth()),
     ]
@@ -239,6 +240,15 @@ def _build_by_hand() -> None:
         (building.add_edge_in, 2, 2),
     ):
         kernel(mesh, *arguments)
+
+
+def _triangulate() -> None:
+    """Quadrilaterals alone, then faces of any degree, each also in kernels."""
+    for mesh in (hm.shapes.grid(2, 2), hm.shapes.dodecahedron()):
+        for points in (mesh.points, mesh.vertex_data.column("points")):
+            hm.triangulate_face_status(mesh, points, 0)
+            hm.triangulate_face(mesh, points, 0)
+        hm.triangulate(mesh)
 
 
 @hm.kernel
