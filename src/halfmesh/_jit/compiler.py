@@ -175,10 +175,23 @@ def dispatcher(
         no_cpython_wrapper=not from_python,
         no_cfunc_wrapper=True,  # for calls from C, which there are none of
     )(source)
+    _forget_literals(made)
     cache = _disk_cache(source, fingerprint(function, salt, _own_source(), *_versions())) if keep else None
     if cache is not None:
         made._cache = cache
     return made
+
+
+def _forget_literals(made: Any) -> None:
+    """Let ``f(t, 1)`` and ``f(t, 2)`` in a kernel call the same compiled code; Numba makes one for each constant."""
+    from numba.core import types as nbtypes
+
+    resolve = made.get_call_template
+
+    def get_call_template(args: Any, kws: Any) -> Any:
+        return resolve(tuple(map(nbtypes.unliteral, args)), {name: nbtypes.unliteral(t) for name, t in kws.items()})
+
+    made.get_call_template = get_call_template
 
 
 def entry_point(made: Any, args: tuple[Any, ...]) -> Any:
