@@ -14,6 +14,8 @@ the same place in ``t.weights``::
 ``COPY``      the element takes the place of its one source
 ``WEDGE``     a corner at an end of an edge that was contracted: sources are the corners at this end and at the other
               on the edge's left side, and on its right; it follows the side that it shared its value with, if any
+``CYCLE``     the element and its sources exchange values in a ring: it takes the first source's, that the second's, and
+              so on, and the last source takes the element's
 ============  ==================================================================================================
 
 The notes of an operator are in the order in which its values are to be moved, and speak of the values before it.
@@ -30,6 +32,7 @@ __all__ = [
     "BETWEEN",
     "COPY",
     "CORNERS",
+    "CYCLE",
     "EDGES",
     "FACES",
     "PART",
@@ -46,7 +49,7 @@ __all__ = [
     "note_wedge",
 ]
 
-BETWEEN, PART, UNION, COPY, WEDGE = range(5)
+BETWEEN, PART, UNION, COPY, WEDGE, CYCLE = range(6)
 VERTICES, CORNERS, EDGES, FACES = 1, 2, 4, 8  # kinds, as bits of counts[NOTING]
 
 

@@ -39,6 +39,11 @@ class Column:
         self.policy = default_policy(values.dtype) if policy is None else checked_policy(policy, values.dtype)
         self._proxy: Any = None
 
+    @property
+    def form(self) -> str:
+        """Dtype and shape of a value, as text."""
+        return f"{self.values.dtype}{list(self.values.shape[1:]) or ''}"
+
     def copy(self, n: int) -> Column:
         """A column with the first n values."""
         self.reach(n)
@@ -264,6 +269,36 @@ class AttributeTable(MutableMapping[str, NDArray[Any]]):
         for name, column in self._columns.items():
             column.reach(len(new_of_old))
             self._columns[name] = Column(column.values[living], column.default, column.policy)
+
+    def _check_fits(self, other: AttributeTable) -> None:
+        """Refuse another table with an attribute of the same name that is of another kind."""
+        for name, theirs in other._columns.items():
+            mine = self._columns.get(name)
+            if mine is not None and mine.form != theirs.form:
+                raise InvalidMeshError(
+                    f"{self._kind} data {name!r} is {mine.form} here and {theirs.form} in the other mesh; "
+                    "convert one of them first",
+                    reason="bad_attribute",
+                )
+
+    def _append(self, others: dict[str, Column]) -> None:
+        """Take over the rows of the elements that were appended: all these have equally many, the last ones here."""
+        n = self._size()
+        for name, theirs in others.items():
+            if name not in self._columns:
+                self._set(name, Column(theirs.values[:0], theirs.default, theirs.policy))
+        for name, column in self._columns.items():
+            column.reach(n)
+            if name in others:
+                rows = others[name].values
+                column.values[n - len(rows) : n] = rows
+
+    def _columns_of(self, indices: NDArray[np.int64]) -> dict[str, Column]:
+        """Copies with the rows of these elements only."""
+        n = self._size()
+        for column in self._columns.values():
+            column.reach(n)
+        return {name: Column(c.values[indices], c.default, c.policy) for name, c in self._columns.items()}
 
     def _columns_in_use(self) -> dict[str, Column]:
         """Copies without spare room."""

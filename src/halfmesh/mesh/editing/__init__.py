@@ -6,9 +6,10 @@ from halfmesh.mesh.editing.holes import Holes
 from halfmesh.mesh.editing.local import Local
 from halfmesh.mesh.editing.seams import Seams
 from halfmesh.mesh.editing.vertices import Vertices
+from halfmesh.mesh.editing.wholes import Wholes
 
 __all__ = ["Editable"]
 
 
-class Editable(Building, Local, Faces, Vertices, Holes, Seams):
+class Editable(Building, Local, Faces, Vertices, Holes, Seams, Wholes):
     """All operators of a mesh."""
