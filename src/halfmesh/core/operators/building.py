@@ -25,15 +25,18 @@ from halfmesh.core.navigation import (
     origin_of,
     prev_of,
     target_of,
+    vertex_slots,
 )
 from halfmesh.core.operators.asking import both_status, edge_status, face_status, halfedge_status, vertex_status
 from halfmesh.core.operators.gaps import show_gap
-from halfmesh.core.pens import changed, link, set_face, set_halfedge_of_vertex
+from halfmesh.core.pens import changed, link, set_face, set_halfedge_of_vertex, set_next, set_prev
 from halfmesh.core.slots import delete_edge, delete_face, delete_vertex, is_full, new_edge, new_face, new_vertex
 from halfmesh.core.statuses import (
     CLOSED_VERTEX,
+    DELETED_ELEMENT,
     EMPTY_FACE,
     FEW_VERTICES,
+    MISSING_ELEMENT,
     NO_GAP,
     NOT_A_CHAIN,
     OK,
@@ -42,6 +45,7 @@ from halfmesh.core.statuses import (
     TAKEN_HALFEDGE,
     TOO_LARGE,
 )
+from halfmesh.core.topology import DELETED
 
 __all__ = [
     "add_edge",
@@ -159,13 +163,16 @@ def _hung_edge(t: Any, u: int, v: int) -> int:
 @kernel
 def _hang(t: Any, h: int, gap: int) -> None:
     """Hang the origin of the new halfedge `h` before `gap`; -1 if the vertex is isolated."""
-    before = h ^ 1
     if gap >= 0:
         before = prev_of(t, gap)
-        link(t, h ^ 1, gap)
+        t.next[h ^ 1] = gap  # nobody has to know what a new slot held before: no pen
+        t.prev[h] = before
+        set_prev(t, gap, h ^ 1)
+        set_next(t, before, h)
     else:
+        t.next[h ^ 1] = h
+        t.prev[h] = h ^ 1
         set_halfedge_of_vertex(t, origin_of(t, h), h)
-    link(t, before, h)
 
 
 # -- two halfedges, one after the other ----------------------------------------------------------------------------
@@ -272,12 +279,96 @@ def try_add_face_of_vertices(t: Any, vertices: Any) -> int:
     Its sides are the first free halfedges found, and new edges between vertices that no edge joins yet. Where parallel
     edges are to choose from, add the face by its halfedges. Cost: the degrees of its corners.
     """
-    n = len(vertices)
     status = _corners_status(t, vertices)
     if status != OK:
         return -status
+    sides = np.empty(len(vertices), np.int64)
+    if not _are_distinct(vertices):
+        return _try_add_intricate_face(t, vertices, sides)
+    status = _choose_sides(t, vertices, sides)
+    return -status if status != OK else _lay_along(t, vertices, sides)
+
+
+@kernel
+def _are_distinct(vertices: Any) -> bool:
+    n = len(vertices)
+    if n > 16:  # it takes n^2; the other way is right for all faces, only slower
+        return False
+    for i in range(n):
+        for j in range(i):
+            if vertices[i] == vertices[j]:
+                return False
+    return True
+
+
+@kernel
+def _choose_sides(t: Any, vertices: Any, sides: Any) -> int:
+    """The free halfedges that the face is to run along, -1 for an edge to be made: ``OK``, or why it can't be.
+
+    Where all vertices are distinct no corner has to do with another, so all can be asked before anything is moved.
+    Rings are walked here and not by a kernel that is called: faces are added by the million, and a call costs as much.
+    """
+    n = len(vertices)
+    u = int(vertices[0])
+    for i in range(n):
+        v = int(vertices[i + 1 if i + 1 < n else 0])
+        found, start, gap = -1, halfedge_of_vertex(t, u), halfedge_of_vertex(t, v)
+        x = start
+        while x >= 0:
+            if target_of(t, x) == v:
+                if is_exterior(t, x):
+                    found = x
+                    break
+                found = -2
+            x = ccw_of(t, x)
+            if x == start:
+                break
+        if found == -2:
+            return TAKEN_HALFEDGE
+        if found == -1 and ((start >= 0 and not is_exterior(t, start)) or (gap >= 0 and not is_exterior(t, gap))):
+            return CLOSED_VERTEX
+        sides[i] = found
+        u = v
+    for i in range(n):
+        h_in, h_out = sides[i - 1 if i > 0 else n - 1], sides[i]
+        if h_in >= 0 and h_out >= 0 and next_of(t, h_in) != h_out:
+            if find_free_between(t, int(vertices[i]), h_out ^ 1, h_in) < 0:
+                return NO_GAP
+    return OK
+
+
+@kernel
+def _lay_along(t: Any, vertices: Any, sides: Any) -> int:
+    """Make the edges that are missing and lay the face, which `_choose_sides` has said may be."""
+    n, f = len(sides), face_slots(t)
+    for i in range(n):
+        if sides[i] < 0:
+            sides[i] = _hung_edge(t, int(vertices[i]), int(vertices[i + 1 if i + 1 < n else 0]))
+    h_in = sides[n - 1]
+    for i in range(n):
+        h_out = sides[i]
+        set_face(t, h_out, f)
+        if next_of(t, h_in) != h_out:
+            _make_follow(t, h_in, h_out, find_free_between(t, origin_of(t, h_out), h_out ^ 1, h_in))
+        h_in = h_out
+    new_face(t, sides[0])
+    for i in range(n):
+        start = halfedge_of_vertex(t, int(vertices[i]))
+        if not is_exterior(t, start):
+            x = ccw_of(t, start)
+            while x != start and not is_exterior(t, x):
+                x = ccw_of(t, x)
+            if x != start:
+                set_halfedge_of_vertex(t, int(vertices[i]), x)
+    changed(t)
+    return f
+
+
+@kernel
+def _try_add_intricate_face(t: Any, vertices: Any, halfedges: Any) -> int:
+    """A face that may pass a vertex or an edge twice, so that its corners have to do with each other: by trying."""
+    n, status = len(vertices), OK
     before = begin_attempt(t)
-    halfedges = np.empty(n, np.int64)
     f = face_slots(t)  # marks what the face has chosen already, until all are chosen
     for i in range(n):
         h = _side(t, int(vertices[i]), int(vertices[i + 1 if i + 1 < n else 0]), f)
@@ -320,9 +411,11 @@ def _corners_status(t: Any, vertices: Any) -> int:
     if n == 0:
         return EMPTY_FACE
     for i in range(n):
-        status = vertex_status(t, int(vertices[i]))
-        if status != OK:
-            return status
+        v = int(vertices[i])
+        if v < 0 or v >= vertex_slots(t):
+            return MISSING_ELEMENT
+        if halfedge_of_vertex(t, v) == DELETED:
+            return DELETED_ELEMENT
     if n < 3:
         return FEW_VERTICES
     for i in range(n):
