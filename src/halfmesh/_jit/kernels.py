@@ -248,7 +248,7 @@ def twofold(interpreted: Callable[..., Any]) -> Callable[[Callable[P, R]], Kerne
 def inline_kernel(function: Callable[P, R]) -> Kernel[P, R]:
     """Declare a small kernel that is written into every caller: where a call costs more than what it does.
 
-    A call of compiled code counts references to the carrier, atomically: 5-10 ns, five times what a pen writes in.
+    For pens, which write one number.
     """
     return InlineKernel(function)
 
