@@ -306,7 +306,6 @@ def _choose_sides(t: Any, vertices: Any, sides: Any) -> int:
     """The free halfedges that the face is to run along, -1 for an edge to be made: ``OK``, or why it can't be.
 
     Where all vertices are distinct no corner has to do with another, so all can be asked before anything is moved.
-    Rings are walked here and not by a kernel that is called: faces are added by the million, and a call costs as much.
     """
     n = len(vertices)
     u = int(vertices[0])
@@ -331,9 +330,9 @@ def _choose_sides(t: Any, vertices: Any, sides: Any) -> int:
         u = v
     for i in range(n):
         h_in, h_out = sides[i - 1 if i > 0 else n - 1], sides[i]
-        if h_in >= 0 and h_out >= 0 and next_of(t, h_in) != h_out:
-            if find_free_between(t, int(vertices[i]), h_out ^ 1, h_in) < 0:
-                return NO_GAP
+        apart = h_in >= 0 and h_out >= 0 and next_of(t, h_in) != h_out
+        if apart and find_free_between(t, int(vertices[i]), h_out ^ 1, h_in) < 0:
+            return NO_GAP
     return OK
 
 
