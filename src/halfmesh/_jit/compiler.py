@@ -392,7 +392,7 @@ def _define_lending(lent: Any) -> None:
     class Fields(AttributeTemplate):  # type: ignore[misc, unused-ignore]
         key = lent
 
-        def generic_resolve(self, typ: Any, attr: str) -> Any:
+        def generic_resolve(self, typ: Any, attr: str) -> Any:  # type: ignore[override, unused-ignore]
             return typ.owned.field_dict.get(attr)
 
     def struct_at(context: Any, builder: Any, kind: Any, address: Any) -> Any:

@@ -30,14 +30,14 @@ class Column:
     elements: the quickest, for elements that were there before.
     """
 
-    __slots__ = ("_proxy", "default", "policy", "values")
+    __slots__ = ("default", "lowered", "policy", "values")
 
     def __init__(self, values: NDArray[Any], default: Any = 0, policy: Policy | None = None) -> None:
         self.values = values
         self.default = np.empty((1, *values.shape[1:]), values.dtype)
         self.default[...] = default
         self.policy = default_policy(values.dtype) if policy is None else checked_policy(policy, values.dtype)
-        self._proxy: Any = None
+        self.lowered: Any = None  # the compiled form, once it was asked for
 
     @property
     def form(self) -> str:
@@ -55,7 +55,7 @@ class Column:
             made = np.empty((max(n, 2 * len(self.values), 16), *self.values.shape[1:]), self.values.dtype)
             made[: len(self.values)] = self.values
             made[len(self.values) :] = self.default
-            self.values, self._proxy = made, None
+            self.values, self.lowered = made, None
 
     def __getitem__(self, key: Any) -> Any:
         return self.values[key]
@@ -71,13 +71,17 @@ class Column:
         return self
 
     def __compiled__(self) -> Any:
-        if self._proxy is None:
-            self._proxy = _CARRIER.make(self.values, self.default)
-        return self._proxy
+        if self.lowered is None:
+            self.lowered = _CARRIER.make(self.values, self.default)
+        return self.lowered
+
+    def catch_up(self) -> None:
+        """Take the array from the compiled form, in which it has grown."""
+        self.__refresh__((), compiled=True)
 
     def __refresh__(self, args: tuple[Any, ...], compiled: bool) -> None:
         if compiled:
-            values = _CARRIER.take(self._proxy)[0]
+            values = _CARRIER.take(self.lowered)[0]
             if values.ctypes.data != self.values.ctypes.data:
                 self.values = values
 
@@ -292,6 +296,12 @@ class AttributeTable(MutableMapping[str, NDArray[Any]]):
             if name in others:
                 rows = others[name].values
                 column.values[n - len(rows) : n] = rows
+
+    def _put(self, name: str, first: int, rows: NDArray[Any]) -> None:
+        """Give values to new elements, from this one on."""
+        column = self._columns[name]
+        column.reach(first + len(rows))
+        column.values[first : first + len(rows)] = rows
 
     def _columns_of(self, indices: NDArray[np.int64]) -> dict[str, Column]:
         """Copies with the rows of these elements only."""

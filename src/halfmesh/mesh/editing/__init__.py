@@ -1,6 +1,7 @@
 """The methods of :class:`halfmesh.Mesh` that change it: each resolves its elements, acts, and explains a no."""
 
 from halfmesh.mesh.editing.building import Building
+from halfmesh.mesh.editing.bulk import Bulk
 from halfmesh.mesh.editing.faces import Faces
 from halfmesh.mesh.editing.holes import Holes
 from halfmesh.mesh.editing.local import Local
@@ -11,5 +12,5 @@ from halfmesh.mesh.editing.wholes import Wholes
 __all__ = ["Editable"]
 
 
-class Editable(Building, Local, Faces, Vertices, Holes, Seams, Wholes):
+class Editable(Building, Bulk, Local, Faces, Vertices, Holes, Seams, Wholes):
     """All operators of a mesh."""
