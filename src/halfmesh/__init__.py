@@ -14,6 +14,7 @@ import importlib
 from typing import TYPE_CHECKING, Any
 
 from halfmesh._jit import kernel
+from halfmesh.core import operators as _operators
 from halfmesh.core.circulation import (
     edges_around,
     face_edges,
@@ -49,16 +50,8 @@ from halfmesh.core.navigation import (
     twin_of,
     vertex_slots,
 )
-from halfmesh.core.operators.collapses import collapse, collapse_status
-from halfmesh.core.operators.flips import flip, flip_status
-from halfmesh.core.operators.splits import (
-    connect,
-    connect_status,
-    join_faces,
-    join_faces_status,
-    split_edge,
-    split_face,
-)
+from halfmesh.core.operators import *  # noqa: F403 - all of them, by the list in that file
+from halfmesh.core.search import find_halfedge
 from halfmesh.errors import (
     ElementError,
     FormatError,
@@ -107,10 +100,6 @@ __all__ = [
     "TopologyError",
     "Vertex",
     "ccw_of",
-    "collapse",
-    "collapse_status",
-    "connect",
-    "connect_status",
     "cw_of",
     "edge_of",
     "edge_slots",
@@ -122,8 +111,7 @@ __all__ = [
     "face_slots",
     "face_vertices",
     "faces_around",
-    "flip",
-    "flip_status",
+    "find_halfedge",
     "geometry",
     "halfedge_of_edge",
     "halfedge_of_face",
@@ -135,8 +123,6 @@ __all__ = [
     "is_boundary_vertex",
     "is_exterior",
     "is_isolated",
-    "join_faces",
-    "join_faces_status",
     "kernel",
     "load",
     "loop",
@@ -148,11 +134,10 @@ __all__ = [
     "prev_of",
     "save",
     "shapes",
-    "split_edge",
-    "split_face",
     "target_of",
     "testing",
     "twin_of",
     "vertex_slots",
     "viewer",
 ]
+__all__ += _operators.__all__

@@ -85,7 +85,7 @@ class PreconditionError(HalfmeshError, ValueError):
 
 
 class StaleElementError(HalfmeshError, RuntimeError):
-    """The element that the handle names was deleted."""
+    """The element that the handle names was deleted, or its index means another one since compaction or a rollback."""
 
 
 class ElementError(HalfmeshError, IndexError):

@@ -160,6 +160,9 @@ def _change() -> None:
     ):
         operator()
     _build_by_hand()
+    with mesh.transaction() as attempt:
+        mesh.split_face(next(iter(mesh.faces)))
+        attempt.rollback()
     _grow(mesh.vertex_data.column("points"), 100)
     mesh.compact()
     rewind(mesh, 0)

@@ -67,16 +67,6 @@ def test_rule_says_the_same_in_every_gear(name):
         assert compiled.tolist() == interpreted.tolist() == by_int == vectorised.tolist(), specimen.name
 
 
-@pytest.mark.large
-@pytest.mark.parametrize("name", [name for name in RULES if letter(RULES[name])])
-def test_rule_compiled_by_itself_says_the_same(name):
-    """The dispatcher of the rule, as Python calls it; its columns are read without Numba's test for negatives."""
-    rule, mesh = RULES[name], ZOO["mixed degrees"].mesh()
-    elements = indices(mesh, letter(rule))
-    alone = [int(rule.compiled(mesh.__compiled__(), i)) for i in elements]
-    assert alone == np.asarray(rule(mesh, elements)).astype(int).tolist()
-
-
 WORDS = {
     "next_of": Reference.next,
     "prev_of": Reference.prev,

@@ -137,6 +137,7 @@ def dispatcher(
     bounds: bool = False,
     inline: bool = False,
     nogil: bool = True,
+    from_python: bool = True,
     salt: str = "",
 ) -> Any:
     """The Numba dispatcher of a function.
@@ -157,6 +158,8 @@ def dispatcher(
         Write the code into every caller.
     nogil : bool
         Let other threads run while it does.
+    from_python : bool
+        Also make what Python needs to call it; for rules, which only kernels call, that would be half the code.
     salt : str
         What else the cache key depends on.
     """
@@ -164,7 +167,14 @@ def dispatcher(
     source = source or function
     if unchecked:
         source = with_column_reads(source, _checked() if numba().config.BOUNDSCHECK else _unchecked())
-    made = numba().njit(error_model="numpy", nogil=nogil, boundscheck=bounds or None, forceinline=inline)(source)
+    made = numba().njit(
+        error_model="numpy",
+        nogil=nogil,
+        boundscheck=bounds or None,
+        forceinline=inline,
+        no_cpython_wrapper=not from_python,
+        no_cfunc_wrapper=True,  # for calls from C, which there are none of
+    )(source)
     cache = _disk_cache(source, fingerprint(function, salt, _own_source(), *_versions())) if keep else None
     if cache is not None:
         made._cache = cache
@@ -300,21 +310,15 @@ class CarrierType:
             def preprocess_fields(self, fields: Any) -> Any:
                 return tuple((n, nbtypes.unliteral(t)) for n, t in fields)
 
-        class Lent(nbtypes.Type):  # type: ignore[misc, unused-ignore]
-            def __init__(self, owned: Any) -> None:
-                self.owned = owned
-                super().__init__(f"Lent[{owned.name}]")
-
         proxy = _proxy_class()
-        for made, suffix in ((Type, "Type"), (Lent, "Lent"), (proxy, "Proxy")):
+        for made, suffix in ((Type, "Type"), (proxy, "Proxy")):
             made.__name__ = made.__qualname__ = self.name + suffix
             setattr(sys.modules[__name__], made.__name__, made)  # pickle looks here when the disk cache is read
-        structref.register(Type)
+        _define_uncounted(Type)
         structref.define_constructor(proxy, Type, list(self.fields))
-        _define_lending(Lent)
-        _define_boxing(Type, Lent, proxy)
+        _define_boxing(Type, proxy)
         if self.growing is not None:
-            _define_growing(Lent, self.growing.compiled)
+            _define_growing(Type, self.growing.compiled)
         scope: dict[str, Any] = {"Proxy": proxy}
         names = ", ".join(self.fields)
         exec(f"def make_{self.name}({names}): return Proxy({names})", scope)
@@ -323,6 +327,24 @@ class CarrierType:
             function = scope[f"{verb}_{self.name}"]
             function.__module__ = __name__
             setattr(self, f"_{verb}", dispatcher(function, salt=repr(self.fields)))
+
+
+def _define_uncounted(carrier: Any) -> None:
+    """Let compiled code hold a structref without counting its references, which whoever calls a kernel keeps alive.
+
+    Numba counts at every call that passes it on, atomically: a fourth of the time of an operator made of small steps.
+    """
+    from numba.core import types as nbtypes
+    from numba.core.datamodel import models
+    from numba.core.datamodel.registry import default_manager
+    from numba.experimental import structref
+
+    class Model(models.StructModel):  # type: ignore[misc, unused-ignore]
+        def __init__(self, manager: Any, kind: Any) -> None:
+            super().__init__(manager, kind, [("meminfo", nbtypes.voidptr)])  # Numba's own is a counted MemInfoPointer
+
+    default_manager.register(carrier, Model)
+    structref.define_attributes(carrier)
 
 
 def _proxy_class() -> Any:
@@ -341,8 +363,8 @@ def _proxy_class() -> Any:
     return Proxy
 
 
-def _define_boxing(carrier: Any, lent: Any, proxy: Any) -> None:
-    """How a carrier comes out as what Python holds, and goes in again, lent.
+def _define_boxing(carrier: Any, proxy: Any) -> None:
+    """How a carrier goes in and out.
 
     Numba's own way in looks up an attribute and calls into its runtime; with an address a call takes 160 ns, not 270.
     """
@@ -357,11 +379,10 @@ def _define_boxing(carrier: Any, lent: Any, proxy: Any) -> None:
     @box(carrier)
     def box_carrier(kind: Any, value: Any, c: Any) -> Any:
         meminfo = cgutils.create_struct_proxy(kind)(c.context, c.builder, value=value).meminfo
-        address = c.context.nrt.meminfo_data(c.builder, meminfo)
         arguments = [
-            c.pyapi.long_from_ulonglong(c.builder.ptrtoint(address, c.pyapi.ulonglong)),
-            c.pyapi.unserialize(c.pyapi.serialize_object(lent(kind))),
-            c.box(nbtypes.MemInfoPointer(nbtypes.voidptr), meminfo),
+            c.pyapi.long_from_ulonglong(c.builder.ptrtoint(meminfo, c.pyapi.ulonglong)),
+            c.pyapi.unserialize(c.pyapi.serialize_object(kind)),
+            c.box(nbtypes.MemInfoPointer(nbtypes.voidptr), meminfo),  # takes over the constructor's reference
         ]
         make = c.pyapi.unserialize(c.pyapi.serialize_object(proxy.boxed))
         made = c.pyapi.call_function_objargs(make, arguments)
@@ -369,50 +390,11 @@ def _define_boxing(carrier: Any, lent: Any, proxy: Any) -> None:
             c.pyapi.decref(owned)
         return made
 
-    @unbox(lent)
-    def unbox_lent(kind: Any, argument: Any, c: Any) -> Any:
-        return NativeValue(c.pyapi.long_as_voidptr(argument))
-
-
-def _define_lending(lent: Any) -> None:
-    """The form of a carrier inside kernels: a bare address, whose owner is the Python object that was passed.
-
-    A structref counts its references, atomically, whenever a kernel hands it to another: 5-10 ns, more than most steps
-    of an operator, and half of the time of adding a face. The caller holds it anyway, as long as the call lasts.
-    """
-    from numba.core import cgutils
-    from numba.core.datamodel import models
-    from numba.core.imputils import impl_ret_borrowed
-    from numba.core.typing.templates import AttributeTemplate
-    from numba.extending import infer_getattr, lower_getattr_generic, lower_setattr_generic, register_model
-
-    register_model(lent)(models.OpaqueModel)
-
-    @infer_getattr
-    class Fields(AttributeTemplate):  # type: ignore[misc, unused-ignore]
-        key = lent
-
-        def generic_resolve(self, typ: Any, attr: str) -> Any:  # type: ignore[override, unused-ignore]
-            return typ.owned.field_dict.get(attr)
-
-    def struct_at(context: Any, builder: Any, kind: Any, address: Any) -> Any:
-        data = kind.owned.get_data_type()
-        pointer = builder.bitcast(address, context.data_model_manager[data].get_value_type().as_pointer())
-        return cgutils.create_struct_proxy(data)(context, builder, ref=pointer)
-
-    @lower_getattr_generic(lent)
-    def get(context: Any, builder: Any, kind: Any, address: Any, name: str) -> Any:
-        value = getattr(struct_at(context, builder, kind, address), name)
-        return impl_ret_borrowed(context, builder, kind.owned.field_dict[name], value)
-
-    @lower_setattr_generic(lent)
-    def set(context: Any, builder: Any, signature: Any, arguments: Any, name: str) -> None:
-        kind, given = signature.args
-        struct, field = struct_at(context, builder, kind, arguments[0]), kind.owned.field_dict[name]
-        value, before = context.cast(builder, arguments[1], given, field), getattr(struct, name)
-        context.nrt.incref(builder, field, value)
-        context.nrt.decref(builder, field, before)
-        setattr(struct, name, value)
+    @unbox(carrier)
+    def unbox_carrier(kind: Any, argument: Any, c: Any) -> Any:
+        carried = cgutils.create_struct_proxy(kind)(c.context, c.builder)
+        carried.meminfo = c.builder.bitcast(c.pyapi.long_as_voidptr(argument), carried.meminfo.type)
+        return NativeValue(carried._getvalue())
 
 
 def _define_growing(carrier: Any, more: Any) -> None:

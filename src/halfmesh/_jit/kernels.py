@@ -161,7 +161,7 @@ class InlineKernel(Kernel[P, R]):
     @functools.cached_property
     def compiled(self) -> Any:
         """The dispatcher; always inlined."""
-        return dispatcher(self.py_func, inline=True, salt="inline")
+        return dispatcher(self.py_func, inline=True, from_python=False, salt="inline")
 
 
 class Operation(Kernel[P, R]):
@@ -182,7 +182,7 @@ class Rule(Kernel[P, R]):
     @functools.cached_property
     def compiled(self) -> Any:
         """The dispatcher; its column reads skip Numba's test for negative indices, 8-13 % of a one-ring loop."""
-        return dispatcher(self.py_func, unchecked=True)
+        return dispatcher(self.py_func, unchecked=True, from_python=False)
 
     def written_into(self, function: F, name: str) -> F:
         """The function with this rule's one expression in place of its calls ``name(t, i)``: saves a Python call."""
@@ -248,7 +248,7 @@ def twofold(interpreted: Callable[..., Any]) -> Callable[[Callable[P, R]], Kerne
 def inline_kernel(function: Callable[P, R]) -> Kernel[P, R]:
     """Declare a small kernel that is written into every caller: where a call costs more than what it does.
 
-    For pens, which write one number.
+    A call of compiled code counts references to the carrier, atomically: 5-10 ns, five times what a pen writes in.
     """
     return InlineKernel(function)
 

@@ -47,6 +47,7 @@ __all__ = [
     "note_part",
     "note_union",
     "note_wedge",
+    "noted_elements",
 ]
 
 BETWEEN, PART, UNION, COPY, WEDGE, CYCLE = range(6)
@@ -132,3 +133,21 @@ def note_wedge(t: Any, corner: int, here: int, there: int, here_too: int, there_
         add_source(t, there, weight)
         add_source(t, here_too, 1.0 - weight)
         add_source(t, there_too, weight)
+
+
+@kernel
+def noted_elements(notes: Any, size: int, kind: int, below: int, out: Any) -> int:
+    """The elements of a kind, of those before `below`, whose values the notes are going to change; how many."""
+    place = n = 0
+    while place < size:
+        of_kind, n_sources = notes[place + 1] == kind, notes[place + 3]
+        if of_kind and notes[place + 2] < below:
+            out[n] = notes[place + 2]
+            n += 1
+        if of_kind and notes[place] == CYCLE:
+            for i in range(place + 4, place + 4 + n_sources):
+                if notes[i] < below:
+                    out[n] = notes[i]
+                    n += 1
+        place += 4 + n_sources
+    return n

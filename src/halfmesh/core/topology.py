@@ -22,7 +22,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from halfmesh import _jit
-from halfmesh.errors import StaleElementError
+from halfmesh.core.epochs import COMPACTED, ROLLED_BACK, Limits, close, hand_over
 
 __all__ = [
     "COLUMNS",
@@ -70,6 +70,7 @@ COLUMNS = ("next", "prev", "origin", "face", "vertex_halfedge", "face_halfedge",
 SCRATCH = ("journal", "notes", "weights", "room")  # see `journal` and `notes`; room for a few ints of an operator
 FIELDS = COLUMNS + SCRATCH
 FEW = 16  # corners of a face for which there is room twice
+_ROOM_FOR_JOURNAL = 2**17  # ints that are kept for the next transaction: 1 MB
 _CARRIER = _jit.declare_carrier("Topology", FIELDS)
 
 
@@ -89,6 +90,11 @@ class Arrays:
     notes: Ints
     weights: NDArray[np.float64]
     room: NDArray[np.int64]
+
+    @property
+    def nbytes(self) -> int:
+        """Bytes that are held, room for growth and journal included."""
+        return sum(getattr(self, name).nbytes for name in FIELDS)
 
     def __init__(self) -> None:
         self.journal, self.notes, self.weights = np.zeros(2, np.int64), np.zeros(2, np.int32), np.zeros(2)
@@ -116,11 +122,13 @@ class Topology:
 
     def _replace(self, arrays: Arrays) -> None:
         """Take other columns, in which elements have other indices: the old carrier is left to the old handles."""
-        for name in FIELDS:
-            setattr(self._views, name, _GONE)
-        arrays.counts[NEWS] = 0
-        self._views, self.lowered = _jit.Views(), None
+        self._close(COMPACTED)
+        arrays.counts[[NEWS, JOURNAL_SIZE]] = 0
         self._adopt(arrays)
+
+    def _close(self, why: str) -> None:
+        close(self._views, FIELDS, why)
+        self._views, self.lowered = _jit.Views(), None
 
     def take_edges_and_faces(self, made: Arrays) -> None:
         """Take the columns of a mesh that was built over the vertices that are there, where no edge was yet."""
@@ -131,6 +139,29 @@ class Topology:
             setattr(made, name, getattr(self._arrays, name))
         self.lowered = None
         self._adopt(made)
+
+    # -- transactions --------------------------------------------------------------------------------------------
+
+    def put_back(self, arrays: Arrays, views: Any, limits: Limits) -> None:
+        """Take the columns of before, and let the handles of that time go on as far as their elements are there.
+
+        `arrays` and `views` are those that were in use before the first compaction since, or still are.
+        """
+        compiled = self.lowered if arrays is self._arrays else None
+        close(views, FIELDS, ROLLED_BACK)
+        self._close(ROLLED_BACK)
+        self.lowered = compiled
+        self._adopt(arrays)
+        hand_over(views, self._views, limits)
+
+    def end_journal(self) -> None:
+        """Journal no more; what was written stays."""
+        counts = self._arrays.counts
+        counts[[JOURNALING, JOURNAL_SIZE]] = 0
+        if len(self._arrays.journal) > _ROOM_FOR_JOURNAL:
+            self._arrays.journal = np.zeros(2, np.int64)
+            self._views.journal = _jit.view(self._arrays.journal)  # type: ignore[attr-defined]
+            self.lowered = None
 
     # -- the columns in use --------------------------------------------------------------------------------------
 
@@ -219,6 +250,8 @@ class Topology:
         return self.lowered
 
     def __announce__(self, args: tuple[Any, ...]) -> None:
+        if self._slots(NEWS):
+            self.catch_up_late()
         mesh = self.owner and self.owner()
         if mesh is not None:
             mesh._announce(args)
@@ -229,6 +262,11 @@ class Topology:
         mesh = self.owner and self.owner()
         if mesh is not None:
             mesh._follow(args)
+
+    def catch_up_late(self) -> None:
+        """Catch up with a compiled kernel that has raised, after which nobody did."""
+        if self.lowered is not None:
+            self.catch_up(compiled=True)
 
     def catch_up(self, compiled: bool) -> None:
         """Take the columns anew from the gear that has replaced some of them by larger ones."""
@@ -263,15 +301,3 @@ def empty_columns(n_vertices: int, n_edges: int, n_faces: int) -> Arrays:
 def _with_room(column: NDArray[Any]) -> NDArray[Any]:
     """A column is never empty: the branch-free rules may look at its first element."""
     return column if len(column) else np.full(2, -1, dtype=column.dtype)
-
-
-class _Gone:
-    """What stands in the place of the columns after elements have changed their indices: every look is refused."""
-
-    def __getitem__(self, key: Any) -> Any:
-        raise StaleElementError("the elements have other indices since the mesh was compacted; take the handle anew")
-
-    __setitem__: Any = __getitem__
-
-
-_GONE = _Gone()

@@ -15,6 +15,7 @@ from numpy.typing import ArrayLike, DTypeLike, NDArray
 
 from halfmesh import _jit
 from halfmesh.errors import InvalidMeshError
+from halfmesh.mesh.keeping import Keeper
 from halfmesh.mesh.policies import Policy, checked_policy, default_policy, replay
 
 __all__ = ["AttributeTable", "Column"]
@@ -56,6 +57,12 @@ class Column:
             made[: len(self.values)] = self.values
             made[len(self.values) :] = self.default
             self.values, self.lowered = made, None
+
+    def forget_compiled(self) -> None:
+        """Let the compiled form go, which refers to the column's array."""
+        if self.lowered is not None:
+            self.__refresh__((), compiled=True)
+            self.lowered = None
 
     def __getitem__(self, key: Any) -> Any:
         return self.values[key]
@@ -119,6 +126,7 @@ class AttributeTable(MutableMapping[str, NDArray[Any]]):
         self._tell = tell
         self._required = required
         self._columns: dict[str, Column] = {}
+        self._keeper: Keeper | None = None  # of the innermost transaction, if there is any
 
     def add(
         self,
@@ -181,8 +189,7 @@ class AttributeTable(MutableMapping[str, NDArray[Any]]):
         ValueError
             There is no such policy, or the dtype can't follow by it.
         """
-        self[name]
-        column = self._columns[name]
+        column = self._found(name)
         column.policy = checked_policy(policy, column.values.dtype)
 
     @property
@@ -192,14 +199,36 @@ class AttributeTable(MutableMapping[str, NDArray[Any]]):
 
     def column(self, name: str) -> Column:
         """The attribute as something a kernel can grow: its array is ``.values``."""
-        return self._columns[name]
+        column = self._found(name)
+        if self._keeper is not None:
+            self._keeper.keep_whole(column)
+        return column
 
     def __getitem__(self, name: str) -> NDArray[Any]:
+        column = self._found(name)
+        if self._keeper is not None:
+            self._keeper.keep_whole(column)
+        return self._in_use(column)
+
+    def peek(self, name: str) -> NDArray[Any]:
+        """The same array, to be read and not kept: a transaction does not make a copy for it."""
+        return self._in_use(self._found(name))
+
+    def row(self, name: str, index: int) -> Any:
+        """The value of one element, to be read and written: a transaction keeps this row only."""
+        column = self._found(name)
+        if self._keeper is not None:
+            self._keeper.keep_row(column, index)
+        return self._in_use(column)[index]
+
+    def _found(self, name: str) -> Column:
         try:
-            column = self._columns[name]
+            return self._columns[name]
         except KeyError:
             known = ", ".join(map(repr, self._columns)) or "none"
             raise KeyError(f"no {self._kind} data {name!r}; there are: {known}") from None
+
+    def _in_use(self, column: Column) -> NDArray[Any]:
         n = self._size()
         if n > len(column.values):
             column.reach(n)
@@ -232,7 +261,7 @@ class AttributeTable(MutableMapping[str, NDArray[Any]]):
     def __delitem__(self, name: str) -> None:
         if name in self._required:
             raise KeyError(f"{name!r} always exists")
-        self[name]
+        self._found(name)
         del self._columns[name]
         self._tell(bool(self._columns))
 
@@ -243,13 +272,16 @@ class AttributeTable(MutableMapping[str, NDArray[Any]]):
         return len(self._columns)
 
     def __repr__(self) -> str:
-        rows = ", ".join(f"{name}: {a.dtype}{list(a.shape[1:]) or ''}" for name, a in self.items())
+        rows = ", ".join(f"{name}: {a.dtype}{list(a.shape[1:]) or ''}" for name, a in self._peeked())
         return f"<{self._kind} data of {self._size()}: {rows or 'none'}>"
 
     @property
     def nbytes(self) -> int:
         """Bytes of all attributes of this kind."""
-        return sum(a.nbytes for a in self.values())
+        return sum(a.nbytes for _, a in self._peeked())
+
+    def _peeked(self) -> list[tuple[str, NDArray[Any]]]:
+        return [(name, self._in_use(column)) for name, column in self._columns.items()]
 
     def _set(self, name: str, column: Column) -> None:
         if not isinstance(name, str) or not name:
@@ -263,9 +295,12 @@ class AttributeTable(MutableMapping[str, NDArray[Any]]):
 
     def _replay(self, kind: int, notes: Any, weights: Any, args: tuple[Any, ...]) -> None:
         """Let all but the attributes that the kernel took itself follow its notes."""
-        for name, column in self._columns.items():
+        rows = self._keeper.rows_of(notes) if self._keeper is not None and self._columns else None
+        for column in self._columns.values():
             if not any(column is a for a in args):
-                replay(self[name], column.policy, kind, notes, weights)
+                if self._keeper is not None and rows is not None:
+                    self._keeper.keep_rows(column, rows)
+                replay(self._in_use(column), column.policy, kind, notes, weights)
 
     def _permute(self, new_of_old: NDArray[np.int32]) -> None:
         """Keep the rows of the living, after compaction."""
@@ -313,6 +348,25 @@ class AttributeTable(MutableMapping[str, NDArray[Any]]):
     def _columns_in_use(self) -> dict[str, Column]:
         """Copies without spare room."""
         return {name: column.copy(self._size()) for name, column in self._columns.items()}
+
+    def _keeper_from_now(self, kind: int, include_held: bool) -> Keeper:
+        """What keeps, from when it is put in place, that which is written; those around it keep no more meanwhile."""
+        return Keeper(self._columns, self._size(), kind, self._keeper, include_held)
+
+    def _end_keeping(self) -> None:
+        """End the innermost transaction; what was written stays."""
+        keeper = self._keeper
+        assert keeper is not None
+        self._keeper = keeper.outer
+        if self._keeper is not None:
+            self._keeper.absorb(keeper)
+
+    def _put_back(self, n_written: int) -> None:
+        """End it, and take the attributes of its beginning; there have been so many rows since."""
+        keeper = self._keeper
+        assert keeper is not None
+        self._keeper = keeper.outer
+        self._adopt(keeper.put_back(n_written))
 
     def _adopt(self, columns: dict[str, Column]) -> None:
         self._columns = columns

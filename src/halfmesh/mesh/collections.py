@@ -64,10 +64,9 @@ class Collection(Generic[E]):
         if isinstance(element, Element):
             if not isinstance(element, self._kind):
                 raise ElementError(f"expected a {name}, got {element!r}")
+            element._check()  # which may lead it to the carrier of today
             if element._t is not self._mesh.topology.__views__():
-                element._check()
                 raise ElementError(f"{element!r} belongs to another mesh")
-            element._check()
             return element.index
         if isinstance(element, bool | np.bool_) or not isinstance(element, int | np.integer):
             raise ElementError(f"expected a {name} or its index, got {element!r}")

@@ -11,183 +11,18 @@ element hold a negative mark, and what reads a mark refuses.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
-from typing import TYPE_CHECKING, Any, ClassVar, Generic, NoReturn, TypeVar, overload
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, Any
 
 from halfmesh._jit import declared
 from halfmesh.core import circulation, navigation
-from halfmesh.core.topology import DELETED
-from halfmesh.errors import InvalidMeshError, StaleElementError
+from halfmesh.mesh.handles import Element, made, step
 
 if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-    from halfmesh.mesh.mesh import Mesh
-
 __all__ = ["Edge", "Element", "Face", "Halfedge", "Vertex", "made"]
-
-R = TypeVar("R")
-E = TypeVar("E", bound="Element")
-
-_new: Any = object.__new__
-
-
-class Element:
-    """What all handles share: an index, and the mesh that it counts in."""
-
-    __slots__ = ("_t", "index")
-
-    kind: ClassVar[str]
-    plural: ClassVar[str]
-    column: ClassVar[str]  # whose mark says that an element of this kind was deleted
-    index: int
-    _t: Any  # the interpreted carrier of the mesh
-
-    def __init__(self, mesh: Mesh, index: int | Element) -> None:
-        self.index = getattr(mesh, self.plural).resolve(index)
-        self._t = mesh.topology.__views__()
-
-    @property
-    def mesh(self) -> Mesh:
-        """The mesh that the element belongs to. A handle alone does not keep it."""
-        mesh: Mesh | None = self._t.mesh()
-        if mesh is None:
-            raise StaleElementError(f"the mesh of {self.kind} {self.index} is gone; keep a name for it")
-        return mesh
-
-    @property
-    def is_alive(self) -> bool:
-        """Whether the element still exists; every other word raises if not."""
-        try:
-            return bool(getattr(self._t, self.column)[self._slot()] != DELETED)
-        except StaleElementError:
-            return False
-
-    def _slot(self) -> int:
-        """The element's place in its column."""
-        return self.index
-
-    def _check(self) -> None:
-        if not self.is_alive:
-            self._stale()
-
-    def _stale(self) -> NoReturn:
-        raise StaleElementError(f"{self.kind} {self.index} was deleted, or its index moved when the mesh was compacted")
-
-    def _absent(self, found: int) -> None:
-        """No element there (-1), or no element here (the mark)."""
-        if found != -1:
-            self._stale()
-
-    def _walk(self, circulator: Any, kind: type[E]) -> Iterator[E]:
-        """Handles along a circulator; a corrupt mesh raises instead of walking forever."""
-        self._check()
-        t, value = self._t, circulator.value and circulator.value.plain
-        step, end = circulator.step.plain, circulator.start.plain(t, self.index)
-        at = end
-        if at < 0:
-            return
-        for _ in range(2 * t.counts[1]):
-            found = at if value is None else value(t, at)
-            at = step(t, at)
-            if found >= 0 or not circulator.skips:
-                yield made(kind, t, found)
-            if at == end:
-                return
-        raise InvalidMeshError(f"the walk around {self.kind} {self.index} does not close; see mesh.check()")
-
-    def _count(self, circulator: Any) -> int:
-        return sum(1 for _ in self._walk(circulator, type(self)))
-
-    def __index__(self) -> int:
-        return self.index
-
-    def __compiled__(self) -> int:
-        return self.index  # a kernel takes a handle as its index
-
-    def __views__(self) -> int:
-        return self.index
-
-    def __eq__(self, other: object) -> bool:
-        if not isinstance(other, Element):
-            return NotImplemented
-        return type(self) is type(other) and self.index == other.index and self._t is other._t
-
-    def __lt__(self, other: Element) -> bool:
-        if type(self) is not type(other) or self._t is not other._t:
-            return NotImplemented
-        return self.index < other.index
-
-    def __le__(self, other: Element) -> bool:
-        return NotImplemented if self.__lt__(other) is NotImplemented else self.index <= other.index
-
-    def __hash__(self) -> int:
-        return hash((self.kind, self.index))
-
-    def __repr__(self) -> str:
-        return f"{type(self).__name__}({self.index})"
-
-    def __reduce__(self) -> NoReturn:
-        raise TypeError("a handle means nothing without its mesh; pickle the mesh and keep handle.index")
-
-
-def made(kind: type[E], t: Any, index: int) -> E:
-    """A handle of what is known to be an element."""
-    handle: E = _new(kind)
-    handle._t = t
-    handle.index = index
-    return handle
-
-
-def step(rule: Any, kind: str, *, reads: bool = True) -> Callable[[Callable[[Any], R]], _Step[R]]:
-    """Declare a property that follows one rule to an element of that kind; `reads` a column, or is arithmetic."""
-    return lambda function: _Step(rule, kind, reads, function.__doc__)
-
-
-class _Step(Generic[R]):
-    """What `step` declares. The first use writes the getter and puts it in its own place."""
-
-    def __init__(self, rule: Any, kind: str, reads: bool, doc: str | None) -> None:
-        self.rule, self.kind, self.reads, self.__doc__ = rule, kind, reads, doc
-
-    def __set_name__(self, owner: type[Element], name: str) -> None:
-        self.owner, self.name = owner, name
-
-    @overload
-    def __get__(self, instance: None, owner: type) -> property: ...
-    @overload
-    def __get__(self, instance: Element, owner: type) -> R: ...
-    def __get__(self, instance: Element | None, owner: type) -> property | R:
-        made = property(self._getter(), doc=self.__doc__)
-        setattr(self.owner, self.name, made)
-        return made.__get__(instance, owner)
-
-    def _getter(self) -> Callable[[Any], Any]:
-        rule, kind, new, per_slot = self.rule.plain, _KINDS[self.kind], _new, 2 if self.owner is Edge else 1
-
-        def get(self: Any) -> Any:
-            t = self._t
-            index = rule(t, self.index)
-            if index < 0:
-                return self._absent(index)
-            made = new(kind)
-            made._t = t
-            made.index = index
-            return made
-
-        def get_checked(self: Any) -> Any:  # the rule is arithmetic, it sees no mark
-            t = self._t
-            index = self.index
-            if t.next[per_slot * index] < 0:
-                self._stale()
-            made = new(kind)
-            made._t = t
-            made.index = rule(t, index)
-            return made
-
-        getter: Callable[[Any], Any] = self.rule.written_into(get if self.reads else get_checked, "rule")
-        return getter
 
 
 class Vertex(Element):
@@ -206,7 +41,7 @@ class Vertex(Element):
     def point(self) -> NDArray[np.float64]:
         """Its position, shape (3,): a view, writing into it moves the vertex."""
         self._check()
-        row: NDArray[np.float64] = self._t.vertex_data["points"][self.index]
+        row: NDArray[np.float64] = self._t.vertex_data.row("points", self.index)
         return row
 
     @point.setter
@@ -357,7 +192,7 @@ class Edge(Element):
     def length(self) -> float:
         """Distance between its ends."""
         a, b = self.vertices
-        points = self._t.vertex_data["points"]
+        points = self._t.vertex_data.peek("points")
         return math.dist(points[a.index], points[b.index])
 
 
@@ -393,6 +228,3 @@ class Face(Element):
     def neighbors(self) -> Iterator[Face]:
         """The faces across its edges, counter-clockwise; boundary edges are left out."""
         return self._walk(circulation.face_neighbors, Face)
-
-
-_KINDS: dict[str, type[Element]] = {"vertex": Vertex, "halfedge": Halfedge, "edge": Edge, "face": Face}

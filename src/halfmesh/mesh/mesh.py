@@ -14,7 +14,7 @@ from typing import Any, TypeVar
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from halfmesh.core import compaction, counting, invariants, tables
+from halfmesh.core import counting, invariants, tables
 from halfmesh.core.construction import Defective, construct
 from halfmesh.core.diagnosis import explain, explain_crowded, explain_twins
 from halfmesh.core.facelist import FaceList, as_corner_data, as_face_list, as_indices
@@ -38,6 +38,7 @@ from halfmesh.mesh.editing import Editable
 from halfmesh.mesh.elements import Edge, Face, Halfedge, Vertex, made
 from halfmesh.mesh.positions import as_points
 from halfmesh.mesh.summary import Summary, summarize
+from halfmesh.mesh.transactions import TABLES, Undoable
 
 __all__ = ["Mesh"]
 
@@ -46,7 +47,7 @@ Floats = NDArray[np.float64]
 R = TypeVar("R")
 
 
-class Mesh(Editable):
+class Mesh(Editable, Undoable):
     """A half-edge mesh of polygons of any degree, with wire and isolated vertices.
 
     Parameters
@@ -120,7 +121,7 @@ class Mesh(Editable):
             topology = with_wire(topology, wire)
         self._hold(topology)
         self.has_points = positions is not None
-        self.meta: dict[str, Any] = {}
+        self.meta = {}
         if positions is None:
             positions = np.zeros((face_list.n_vertices, 3))
         self.vertex_data._keep("points", positions)
@@ -129,6 +130,8 @@ class Mesh(Editable):
     def _hold(self, topology: Topology) -> None:
         self._topology = topology
         self._cache: dict[str, tuple[int, Any]] = {}
+        self._savepoints = []
+        self._numbers = None
         counts = topology.__views__().counts
         self.vertex_data = AttributeTable("vertex", lambda: counts[VERTEX_SLOTS], ("points",), _noted(counts, VERTICES))
         self.halfedge_data = AttributeTable("halfedge", lambda: 2 * counts[EDGE_SLOTS], (), _noted(counts, CORNERS))
@@ -137,12 +140,6 @@ class Mesh(Editable):
         # Nothing that the mesh holds may hold the mesh: a cycle would keep its columns until the collector comes round.
         topology.owner = weakref.ref(self)
         self._look_again()
-
-    def _look_again(self) -> None:
-        """Take the carrier that handles hold: at the beginning, and after elements have changed their indices."""
-        self._t = self._topology.__views__()
-        self._t.mesh = self._topology.owner
-        self._t.vertex_data = self.vertex_data
 
     # -- elements ------------------------------------------------------------------------------------------------
 
@@ -268,45 +265,13 @@ class Mesh(Editable):
         """
         invariants.check(self._topology)
 
-    def compact(self) -> compaction.Maps:
-        """Remove what was deleted for good: the living move together, in their order, and so do their attributes.
-
-        Returns
-        -------
-        Maps
-            The new index of every old one: ``vertices``, ``halfedges``, ``edges``, ``faces``; -1 for the deleted.
-
-        Notes
-        -----
-        O(n). The only operation that changes indices: handles taken before it raise StaleElementError, arrays and
-        columns taken before it are the old ones. Nothing happens where nothing was deleted.
-
-        Examples
-        --------
-        >>> import halfmesh as hm
-        >>> mesh = hm.Mesh([[0, 1, 2], [0, 2, 3]])
-        >>> f = mesh.join_faces(mesh.find_halfedge(2, 0))
-        >>> mesh.compact().faces
-        array([ 0, -1], dtype=int32)
-        >>> len(mesh.topology.face_halfedge)
-        1
-        """
-        before = self._t
-        maps = compaction.compact(self._topology)
-        if self._topology.__views__() is not before:
-            tables = (self.vertex_data, self.halfedge_data, self.edge_data, self.face_data)
-            of_kinds = (maps.vertices, maps.halfedges, maps.edges, maps.faces)
-            for table, new_of_old in zip(tables, of_kinds, strict=True):
-                table._permute(new_of_old)
-            self._look_again()
-        return maps
-
     def copy(self) -> Mesh:
         """An independent copy with its attributes. O(n)."""
         made = object.__new__(type(self))
         made._hold(self._topology.copy())
-        made.has_points, made.build_seconds, made.meta = self.has_points, self.build_seconds, deepcopy(self.meta)
-        for name in _TABLES:
+        made.has_points, made.build_seconds, made.meta = self.has_points, self.build_seconds, deepcopy(self._meta)
+        made._numbers = None if self._numbers is None else self._numbers.copy()
+        for name in TABLES:
             getattr(made, name)._adopt(getattr(self, name)._columns_in_use())
         return made
 
@@ -316,14 +281,16 @@ class Mesh(Editable):
         return self.copy()
 
     def __getstate__(self) -> dict[str, Any]:
-        state: dict[str, Any] = {name: getattr(self, name)._columns_in_use() for name in _TABLES}
-        return state | {"topology": self._topology} | {name: getattr(self, name) for name in _REMARKS}
+        state: dict[str, Any] = {name: getattr(self, name)._columns_in_use() for name in TABLES}
+        state |= {"topology": self._topology, "meta": self._meta, "ids": self._numbers and self._numbers.copy()}
+        return state | {name: getattr(self, name) for name in _REMARKS}
 
     def __setstate__(self, state: dict[str, Any]) -> None:
         self._hold(state["topology"])
+        self.meta, self._numbers = state["meta"], state.get("ids")
         for name in _REMARKS:
             setattr(self, name, state[name])
-        for name in _TABLES:
+        for name in TABLES:
             getattr(self, name)._adopt(state[name])
 
     def __repr__(self) -> str:
@@ -343,7 +310,7 @@ class Mesh(Editable):
     def _announce(self, args: tuple[Any, ...]) -> None:
         """Before a kernel: have it note what the attributes that are not among its arguments need to follow."""
         if any(isinstance(a, Column) for a in args):
-            following = (getattr(self, name)._is_followed(args) for name in _TABLES)
+            following = (getattr(self, name)._is_followed(args) for name in TABLES)
             self._t.counts[NOTING] = sum(1 << place for place, is_followed in enumerate(following) if is_followed)
 
     def _follow(self, args: tuple[Any, ...] = ()) -> None:
@@ -351,12 +318,12 @@ class Mesh(Editable):
         t = self._topology.__arrays__()
         if t.counts[NEWS] & HAS_NOTES:
             size = t.counts[NOTES_SIZE]
-            for place, name in enumerate(_TABLES):
+            for place, name in enumerate(TABLES):
                 getattr(self, name)._replay(1 << place, t.notes[:size], t.weights[:size], args)
             t.counts[NOTES_SIZE] = 0
             t.counts[NEWS] &= ~HAS_NOTES
         if any(isinstance(a, Column) for a in args):
-            t.counts[NOTING] = sum(1 << place for place, name in enumerate(_TABLES) if len(getattr(self, name)))
+            t.counts[NOTING] = sum(1 << place for place, name in enumerate(TABLES) if len(getattr(self, name)))
 
     def __views__(self) -> Any:
         return self._t
@@ -383,8 +350,7 @@ def _noted(counts: Any, kind: int) -> Callable[[bool], None]:
     return note
 
 
-_REMARKS = ("has_points", "build_seconds", "meta")
-_TABLES = ("vertex_data", "halfedge_data", "edge_data", "face_data")
+_REMARKS = ("has_points", "build_seconds")
 
 
 def _topology(faces: FaceList, twins: ArrayLike | None) -> Topology:

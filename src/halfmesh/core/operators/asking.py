@@ -86,7 +86,8 @@ def touches_gap(t: Any, v: int) -> bool:
 @kernel
 def is_triangle(t: Any, h: int) -> bool:
     """Whether the loop of `h`, around a face or a hole, has three sides."""
-    return next_of(t, next_of(t, next_of(t, h))) == h
+    n = next_of(t, h)
+    return n != h and next_of(t, next_of(t, n)) == h  # a loop of one side comes back after three steps, too
 
 
 @kernel

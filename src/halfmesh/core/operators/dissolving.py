@@ -139,7 +139,8 @@ def dissolve_edge(t: Any, h: int) -> int:
     a, b = origin_of(t, h), target_of(t, h)
     f = join_faces(t, h)
     _dissolve_between(t, a)
-    _dissolve_between(t, b)
+    if b != a:
+        _dissolve_between(t, b)
     return f
 
 

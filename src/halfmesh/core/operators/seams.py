@@ -26,6 +26,7 @@ from halfmesh.core.pens import changed, link, set_face, set_halfedge_of_face, se
 from halfmesh.core.slots import is_full, new_edge
 from halfmesh.core.statuses import (
     BOUNDARY_EDGE,
+    LOOP_EDGE,
     NOT_EXTERIOR,
     NOT_TWO_SIDED,
     OK,
@@ -152,8 +153,8 @@ def try_cut(t: Any, path: Any) -> int:
     """Cut the surface along these halfedges: the first new edge, or the negative code, and nothing changed.
 
     Each edge is opened, in this order: the new edge of ``path[i]`` is the first plus `i`, and lies on the right. Then
-    each end is taken apart from the new gaps counter-clockwise to the next. So an end inside of the surface stays
-    whole, and a cut that starts at the boundary opens it. Cost: the degrees of the vertices.
+    the ends come apart into as many vertices as they touch gaps. So an end inside of the surface stays whole, and a cut
+    that starts at the boundary opens it. Cost: the degrees of the vertices.
     """
     status = cut_status(t, path)
     return -status if status != OK else cut(t, path)
@@ -204,10 +205,11 @@ def cut(t: Any, path: Any) -> int:
 
 @kernel
 def _part(t: Any, x: int) -> None:
-    """Give what lies between the gap of `x` and the next a vertex of its own, if there is another gap."""
+    """Give each fan at the origin of the exterior `x` a vertex of its own; that which ends at `x` keeps it."""
     y = next_gap(t, x)
-    if y != x:
+    while y != x:
         unweld(t, x, y)
+        y = next_gap(t, x)
 
 
 # -- stitch --------------------------------------------------------------------------------------------------------
@@ -223,6 +225,8 @@ def stitch_status(t: Any, a: int, b: int, allow_parallel: bool = False) -> int:
         return NOT_EXTERIOR
     if a >> 1 == b >> 1:
         return SAME_EDGE
+    if origin_of(t, a) == target_of(t, a) or origin_of(t, b) == target_of(t, b):
+        return LOOP_EDGE
     if origin_of(t, a) == origin_of(t, b) or target_of(t, a) == target_of(t, b):
         return WOULD_BE_LOOP
     status = _end_status(t, a, b, allow_parallel)
@@ -235,19 +239,21 @@ def _end_status(t: Any, a: int, b: int, allow_parallel: bool) -> int:
     u, w, g = origin_of(t, a), target_of(t, b), next_of(t, b)
     if u == w:
         return OK if g == a else make_adjacent_status(t, b, a)
-    if is_joined(t, a, w):
-        return WOULD_BE_LOOP
     if allow_parallel:
         return OK
+    if is_joined(t, a, w):
+        return WOULD_BE_LOOP
     q, r = target_of(t, a), origin_of(t, b)  # will be one as well, joined to u by the edges of a and b
     if q != r:
         crossed = _joins(t, g, q, b >> 1) or _joins(t, a, r, a >> 1)
         if crossed or (_joins(t, a, q, a >> 1) and _joins(t, g, r, b >> 1)):
             return WOULD_BE_PARALLEL
+    p = prev_of(t, a)
+    closing = next_of(t, g) == p  # the edges of g and p will bound a hole of two sides, to be closed next
     x = g
     while True:
         y = target_of(t, x)
-        if y not in (q, r, w) and is_joined(t, a, y):
+        if y not in (q, r, w) and _joins(t, a, y, p >> 1 if closing and x == g else -1):
             return WOULD_BE_PARALLEL
         x = ccw_of(t, x)
         if x == g:
@@ -256,7 +262,7 @@ def _end_status(t: Any, a: int, b: int, allow_parallel: bool) -> int:
 
 @kernel
 def _joins(t: Any, h: int, v: int, without: int) -> bool:
-    """Whether an edge other than this one joins the origin of `h` to `v`."""
+    """Whether an edge other than this one (-1: any) joins the origin of `h` to `v`."""
     x = h
     while True:
         if target_of(t, x) == v and x >> 1 != without:

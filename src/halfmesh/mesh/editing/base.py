@@ -106,7 +106,7 @@ class Base(Counted):
     def _placed(self, v: int, place: NDArray[np.float64] | None) -> Vertex:
         """The vertex, put there."""
         if place is not None:
-            self.vertex_data["points"][v] = place
+            self.vertex_data.row("points", v)[:] = place
         return self._made(Vertex, v)
 
     def _refuse(self, doing: str, code: int, *elements: tuple[str, Any]) -> NoReturn:

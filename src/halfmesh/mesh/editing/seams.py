@@ -167,7 +167,7 @@ class Seams(Base):
         a, b : Halfedge or int
             They come to run against each other. The edge and the ends of `a` stay.
         allow_parallel : bool
-            Also where other edges become parallel.
+            Also where other edges become loops or parallel. Two that bound the rest of the hole may always.
 
         Returns
         -------
@@ -177,8 +177,8 @@ class Seams(Base):
         Raises
         ------
         TopologyError
-            One has a face, or both are of one edge; an edge would become a loop or parallel; or at an end that they
-            share already, something else would be cut off.
+            One has a face or is of a loop edge, or both are of one edge; an edge would become a loop or parallel; or at
+            an end that they share already, something else would be cut off.
         StaleElementError, ElementError
             One of them was deleted, or there is none.
 

@@ -38,6 +38,7 @@ class Wholes(Base):
     has_points: bool
     build_seconds: float
     meta: dict[str, Any]
+    _meta: dict[str, Any]
 
     def reverse_component(self, vertex: Vertex | int) -> None:
         """Turn the orientation of a component around: faces that were counter-clockwise are clockwise.
@@ -164,7 +165,7 @@ class Wholes(Base):
         for (mine, _), columns in zip(tables, rows, strict=True):
             mine._append(columns)
         self.has_points |= other.has_points
-        for key, value in other.meta.items():
+        for key, value in other._meta.items():
             self.meta.setdefault(key, deepcopy(value))
         return Maps(*(_behind(first, of) for first, of in zip(firsts, theirs, strict=True)))
 
@@ -222,7 +223,7 @@ class Wholes(Base):
         topology, maps = extract(t, *kept)
         made = object.__new__(type(self))
         made._hold(topology)
-        made.has_points, made.build_seconds, made.meta = self.has_points, 0.0, deepcopy(self.meta)
+        made.has_points, made.build_seconds, made.meta = self.has_points, 0.0, deepcopy(self._meta)
         of_kinds = (maps.vertices, maps.halfedges, maps.edges, maps.faces)
         for name, new_of_old in zip(_TABLES, of_kinds, strict=True):
             getattr(made, name)._adopt(getattr(self, name)._columns_of(np.flatnonzero(new_of_old >= 0)))
