@@ -64,12 +64,21 @@ from halfmesh.errors import (
 from halfmesh.mesh import Edge, Face, Halfedge, Mesh, Vertex
 
 if TYPE_CHECKING:
-    from halfmesh import geometry, io, shapes, testing, viewer
+    from halfmesh import algorithms, geometry, io, shapes, testing, viewer
+    from halfmesh.algorithms import triangulate, triangulate_face, triangulate_face_status, triangulated
     from halfmesh.io import load, save
 
 __version__ = "0.1.0"
 
-_LATER = {"geometry": "", "io": "", "shapes": "", "testing": "", "viewer": "", "load": "io", "save": "io"}
+_ROOMS = ("algorithms", "geometry", "io", "shapes", "testing", "viewer")
+_LATER = dict.fromkeys(_ROOMS, "") | {
+    "load": "io",
+    "save": "io",
+    "triangulate": "algorithms",
+    "triangulate_face": "algorithms",
+    "triangulate_face_status": "algorithms",
+    "triangulated": "algorithms",
+}
 
 
 def __getattr__(name: str) -> Any:
@@ -99,6 +108,7 @@ __all__ = [
     "StaleElementError",
     "TopologyError",
     "Vertex",
+    "algorithms",
     "ccw_of",
     "cw_of",
     "edge_of",
@@ -136,6 +146,10 @@ __all__ = [
     "shapes",
     "target_of",
     "testing",
+    "triangulate",
+    "triangulate_face",
+    "triangulate_face_status",
+    "triangulated",
     "twin_of",
     "vertex_slots",
     "viewer",

@@ -75,6 +75,8 @@ def jobs() -> list[Job]:
         ("writing and reading OBJ", lambda folder: _there_and_back(folder / "mesh.obj")),
         ("reading OFF in other forms", _read_other_forms),
         ("changing", lambda _: _change()),
+        ("cutting and sewing", lambda _: _sew()),
+        ("triangulating", lambda _: _triangulate()),
         ("walking in kernels", lambda _: _walk(hm.shapes.cube(), 0)),
         ("smoothing", lambda _: _smooth()),
     ]
@@ -171,6 +173,56 @@ def _change() -> None:
     reserve(mesh, 1, 1, 1)
 
 
+def _sew() -> None:
+    """The operators that `_change` does not come to; each by its question, and by the method that acts."""
+    mesh = hm.shapes.grid(4, 4)
+    a, b = mesh.vertices[6].outgoing(), mesh.vertices[8].outgoing()
+    h, rim = mesh.find_halfedge(6, 7), mesh.boundary_loops()[0]
+    g = next(x for x in a if x != h)
+    for question, *elements in (
+        (mesh.can_split_edge_triangular, h),
+        (mesh.can_split_vertex, h, g),
+        (mesh.can_join_vertices, h),
+        (mesh.can_dissolve_vertex, 7),
+        (mesh.can_dissolve_edge, h),
+        (mesh.can_fill_hole, 0),
+        (mesh.can_add_face_to_boundary, int(rim[0]), int(rim[2])),
+        (mesh.can_add_vertex_and_face_to_boundary, int(rim[0]), int(rim[2])),
+        (mesh.can_open_edge, h),
+        (mesh.can_close_edge, 0),
+        (mesh.can_weld, int(rim[0]), int(rim[3])),
+        (mesh.can_unweld, int(rim[0]), int(rim[0])),
+        (mesh.can_cut, [h]),
+        (mesh.can_stitch, int(rim[0]), int(rim[3])),
+        (mesh.can_split_loop, [h, h.next, h.next.next, h.prev]),
+        (mesh.can_join_loop, h, next(b)),
+    ):
+        question(*elements)
+    mesh.join_vertices(mesh.split_vertex(h, g).twin)
+    for act, *arguments in (
+        (mesh.try_flip, h.edge),
+        (mesh.split_edge_triangular, h.twin),
+        (mesh.dissolve_vertex, 7),
+        (mesh.dissolve_edge, mesh.find_halfedge(16, 17)),
+        (mesh.make_hole, mesh.find_halfedge(18, 17).face),
+        (mesh.fill_hole, int(rim[0])),
+        (mesh.add_face_to_boundary, int(rim[0]), int(rim[3])),
+        (mesh.add_vertex_and_face_to_boundary, int(rim[0]), int(rim[3])),
+        (mesh.close_edge, int(rim[0])),
+        (mesh.open_edge, h),
+        (mesh.weld, mesh.halfedges[int(rim[0])], mesh.halfedges[int(rim[4])]),
+        (mesh.weld, 0, 24),
+        (mesh.unweld, int(rim[0]), int(rim[4])),
+        (mesh.cut, [h]),
+        (mesh.stitch, int(rim[0]), int(rim[5])),
+        (mesh.zip_hole, int(rim[1])),
+        (mesh.split_loop, [h, h.next, h.next.next, h.prev]),
+        (mesh.join_loop, h, int(rim[1])),
+    ):
+        with contextlib.suppress(hm.TopologyError, hm.StaleElementError):
+            act(*arguments)
+
+
 def _build_by_hand() -> None:
     mesh = hm.Mesh([])
     for _ in range(6):
@@ -211,6 +263,15 @@ def _change_wholes() -> None:
     mesh.reverse_component(0)
     mesh.submesh([0])
     mesh.remove_component(0)
+
+
+def _triangulate() -> None:
+    """Quadrilaterals alone, then faces of any degree, each also in kernels."""
+    for mesh in (hm.shapes.grid(2, 2), hm.shapes.dodecahedron()):
+        for points in (mesh.points, mesh.vertex_data.column("points")):
+            hm.triangulate_face_status(mesh, points, 0)
+            hm.triangulate_face(mesh, points, 0)
+        hm.triangulate(mesh)
 
 
 @hm.kernel

@@ -42,6 +42,8 @@ def plain(answer):
         return [plain(item) for item in answer]
     if isinstance(answer, hm.mesh.Collection):
         return [handle.index for handle in answer]
+    if isinstance(answer, hm.mesh.Ids):
+        return {kind: plain(getattr(answer, kind)) for kind in ("vertices", "halfedges", "edges", "faces")}
     if isinstance(answer, hm.core.topology.Topology):
         return {name: plain(getattr(answer, name)) for name in COLUMNS[:-1]}
     if isinstance(answer, hm.Mesh):
@@ -110,7 +112,8 @@ def test_no_question_of_the_api_is_missing():
         points n_vertices n_interior_vertices n_boundary_vertices n_isolated_vertices n_edges n_faces n_halfedges
         n_interior_halfedges n_exterior_halfedges n_boundary_loops n_connected_components euler_characteristic genus
         has_boundary is_triangular components vertices halfedges edges faces boundary_loops topology face_vertices
-        vertex_neighbors vertex_faces face_neighbors triangles edge_vertices edge_faces check copy summary revision
+        vertex_neighbors vertex_faces face_neighbors triangles edge_vertices edge_faces check copy summary revision ids
+        meta
     """
     assert set(promised.split()) <= set(QUESTIONS)
     assert callable(hm.Mesh.find_halfedge)

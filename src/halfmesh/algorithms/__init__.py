@@ -1,0 +1,18 @@
+"""What changes a mesh as a whole: one concept per file.
+
+==================  ================================================================================================
+`triangulate`       cut faces into triangles by diagonals, in place; `triangulated` gives a new mesh
+`triangulate_face`  the same for one face, in your own kernels
+==================  ================================================================================================
+"""
+
+from __future__ import annotations
+
+from halfmesh.algorithms.triangulation import (
+    triangulate,
+    triangulate_face,
+    triangulate_face_status,
+    triangulated,
+)
+
+__all__ = ["triangulate", "triangulate_face", "triangulate_face_status", "triangulated"]
