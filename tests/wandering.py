@@ -10,7 +10,7 @@ import halfmesh as hm
 
 COLUMNS = ("next", "prev", "origin", "face", "vertex_halfedge", "face_halfedge")
 TABLES = ("vertex_data", "halfedge_data", "edge_data", "face_data")
-REFUSALS = (hm.TopologyError, hm.ElementError, hm.StaleElementError)
+REFUSALS = (hm.TopologyError, hm.ElementError, hm.StaleElementError, hm.InvalidMeshError)
 
 
 def everything(mesh):
@@ -101,6 +101,12 @@ _OPERATORS = (
     lambda mesh, rng: mesh.cut(_in_a_row(mesh, rng)),
     lambda mesh, rng: mesh.stitch(*_in_a_row(mesh, rng)),
     lambda mesh, rng: mesh.connect(*_in_a_row(mesh, rng)),
+    lambda mesh, rng: mesh.reverse_component(_vertex(mesh, rng)),
+    lambda mesh, rng: mesh.reverse(),
+    lambda mesh, rng: mesh.remove_component(_vertex(mesh, rng)),
+    lambda mesh, rng: mesh.append(furnish(hm.Mesh([[0, 1, 2, 3]], edges=[[3, 4]]), rng.randrange(9))),
+    lambda mesh, rng: mesh.add_vertices([[rng.random(), 1.0], [2.0, 3.0]]),
+    lambda mesh, rng: mesh.add_faces([[_vertex(mesh, rng) for _ in range(3)] for _ in range(rng.randrange(1, 3))]),
     _move,
 )
 

@@ -162,6 +162,8 @@ def _change() -> None:
     ):
         operator()
     _build_by_hand()
+    _build_in_bulk()
+    _change_wholes()
     with mesh.transaction() as attempt:
         mesh.split_face(next(iter(mesh.faces)))
         attempt.rollback()
@@ -240,6 +242,27 @@ def _build_by_hand() -> None:
         (building.add_edge_in, 2, 2),
     ):
         kernel(mesh, *arguments)
+
+
+def _build_in_bulk() -> None:
+    mesh = hm.Mesh([])
+    mesh.add_vertices(np.zeros((24, 3)))
+    mesh.add_vertex([1.0, 2.0, 3.0])
+    mesh.add_faces([[0, 1, 2]])
+    mesh.add_faces([[2, 1, 3], [3, 1, 4]])
+    mesh.add_face([2, 3, 4, 5])
+    mesh.add_face([6, 7, 8, 9, 10])
+    mesh.add_face([11, 12, 13, 12])
+    hm.try_add_faces(mesh, np.array([11, 14, 15], np.int32), np.array([0, 3], np.int32))
+
+
+def _change_wholes() -> None:
+    mesh = _decorated()
+    mesh.append(mesh)
+    mesh.reverse()
+    mesh.reverse_component(0)
+    mesh.submesh([0])
+    mesh.remove_component(0)
 
 
 def _triangulate() -> None:

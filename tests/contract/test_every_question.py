@@ -17,7 +17,7 @@ from halfmesh.core.topology import COLUMNS
 ZOO = hm.testing.zoo()
 every_mesh = pytest.mark.parametrize("specimen", ZOO.values(), ids=ZOO)
 
-CHANGES = {"compact"}  # what changes the mesh has its own contracts
+CHANGES = {"compact", "reverse"}  # what changes the mesh has its own contracts
 
 
 def questions():

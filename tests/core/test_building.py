@@ -23,14 +23,13 @@ from halfmesh.core.operators.building import (
     remove_face,
     remove_vertex,
     try_add_edge,
-    try_add_face,
-    try_add_face_of_vertices,
     try_add_vertex,
     try_make_adjacent,
     try_remove_edge,
     try_remove_face,
     try_remove_vertex,
 )
+from halfmesh.core.operators.faces import try_add_face, try_add_face_of_vertices
 from halfmesh.core.statuses import REASONS
 from halfmesh.core.topology import COLUMNS, JOURNAL_SIZE, JOURNALING, NEWS
 

@@ -20,7 +20,7 @@ Numba structref; in interpreted code it is an ordinary object with the same attr
     loops . fingerprint . arguments . threads . gears
 """
 
-from halfmesh._jit.arguments import Carrier, Views, array_of, view
+from halfmesh._jit.arguments import Carrier, Views, array_of, lowered, view
 from halfmesh._jit.compiler import CarrierType, apart, cache_folder, declare_carrier
 from halfmesh._jit.gears import compiling_always
 from halfmesh._jit.kernels import (
@@ -60,6 +60,7 @@ __all__ = [
     "grown",
     "inline_kernel",
     "kernel",
+    "lowered",
     "n_threads",
     "operation",
     "parallel",

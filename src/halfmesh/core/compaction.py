@@ -19,7 +19,7 @@ from halfmesh.core.topology import (
     empty_columns,
 )
 
-__all__ = ["Maps", "compact"]
+__all__ = ["Maps", "compact", "numbered"]
 
 Ints = NDArray[np.int32]
 
@@ -43,12 +43,8 @@ class Maps:
 def compact(t: Topology) -> Maps:
     """Remove what was deleted from the columns, which are replaced by new ones without spare room. O(n)."""
     old = t.__arrays__()
-    vertices = _numbered(t.vertex_halfedge != DELETED)
-    edges = _numbered(t.next[::2] != DELETED)
-    faces = _numbered(t.face_halfedge != DELETED)
-    halfedges = np.where(edges >= 0, 2 * edges, -1).repeat(2)
-    halfedges[1::2] += halfedges[1::2] >= 0
-    maps = Maps(vertices, halfedges.astype(np.int32), edges, faces)
+    maps = numbered(t.vertex_halfedge != DELETED, t.next[::2] != DELETED, t.face_halfedge != DELETED)
+    vertices, edges, faces = maps.vertices, maps.edges, maps.faces
     if not old.counts[N_DEAD_VERTICES : N_DEAD_FACES + 1].any():
         return maps
     sizes = [int((of >= 0).sum()) for of in (vertices, edges, faces)]
@@ -61,6 +57,14 @@ def compact(t: Topology) -> Maps:
     made.counts[REVISION] += 1
     t._replace(made)
     return maps
+
+
+def numbered(vertices: NDArray[np.bool_], edges: NDArray[np.bool_], faces: NDArray[np.bool_]) -> Maps:
+    """The maps that keep the order of those that are to stay."""
+    of_edges = _numbered(edges)
+    halfedges = np.where(of_edges >= 0, 2 * of_edges, -1).repeat(2)
+    halfedges[1::2] += halfedges[1::2] >= 0
+    return Maps(_numbered(vertices), halfedges.astype(np.int32), of_edges, _numbered(faces))
 
 
 def _numbered(alive: NDArray[np.bool_]) -> Ints:

@@ -14,6 +14,8 @@ the same place in ``t.weights``::
 ``COPY``      the element takes the place of its one source
 ``WEDGE``     a corner at an end of an edge that was contracted: sources are the corners at this end and at the other
               on the edge's left side, and on its right; it follows the side that it shared its value with, if any
+``CYCLE``     the element and its sources exchange values in a ring: it takes the first source's, that the second's, and
+              so on, and the last source takes the element's
 ============  ==================================================================================================
 
 The notes of an operator are in the order in which its values are to be moved, and speak of the values before it.
@@ -30,6 +32,7 @@ __all__ = [
     "BETWEEN",
     "COPY",
     "CORNERS",
+    "CYCLE",
     "EDGES",
     "FACES",
     "PART",
@@ -47,7 +50,7 @@ __all__ = [
     "noted_elements",
 ]
 
-BETWEEN, PART, UNION, COPY, WEDGE = range(5)
+BETWEEN, PART, UNION, COPY, WEDGE, CYCLE = range(6)
 VERTICES, CORNERS, EDGES, FACES = 1, 2, 4, 8  # kinds, as bits of counts[NOTING]
 
 
@@ -137,8 +140,14 @@ def noted_elements(notes: Any, size: int, kind: int, below: int, out: Any) -> in
     """The elements of a kind, of those before `below`, whose values the notes are going to change; how many."""
     place = n = 0
     while place < size:
-        if notes[place + 1] == kind and notes[place + 2] < below:
+        of_kind, n_sources = notes[place + 1] == kind, notes[place + 3]
+        if of_kind and notes[place + 2] < below:
             out[n] = notes[place + 2]
             n += 1
-        place += 4 + notes[place + 3]
+        if of_kind and notes[place] == CYCLE:
+            for i in range(place + 4, place + 4 + n_sources):
+                if notes[i] < below:
+                    out[n] = notes[i]
+                    n += 1
+        place += 4 + n_sources
     return n

@@ -29,6 +29,7 @@ __all__ = [
     "DELETED",
     "EDGE_SLOTS",
     "FACE_SLOTS",
+    "FEW",
     "HAS_NOTES",
     "JOURNALING",
     "JOURNAL_SIZE",
@@ -66,8 +67,9 @@ N_COUNTS = 13
 REPLACED, HAS_NOTES = 1, 2  # a column was replaced by a larger one; there are notes
 
 COLUMNS = ("next", "prev", "origin", "face", "vertex_halfedge", "face_halfedge", "counts")
-SCRATCH = ("journal", "notes", "weights")  # see `journal` and `notes`
+SCRATCH = ("journal", "notes", "weights", "room")  # see `journal` and `notes`; room for a few ints of an operator
 FIELDS = COLUMNS + SCRATCH
+FEW = 16  # corners of a face for which there is room twice
 _ROOM_FOR_JOURNAL = 2**17  # ints that are kept for the next transaction: 1 MB
 _CARRIER = _jit.declare_carrier("Topology", FIELDS)
 
@@ -87,6 +89,7 @@ class Arrays:
     journal: NDArray[np.int64]
     notes: Ints
     weights: NDArray[np.float64]
+    room: NDArray[np.int64]
 
     @property
     def nbytes(self) -> int:
@@ -95,6 +98,7 @@ class Arrays:
 
     def __init__(self) -> None:
         self.journal, self.notes, self.weights = np.zeros(2, np.int64), np.zeros(2, np.int32), np.zeros(2)
+        self.room = np.zeros(2 * FEW, np.int64)
 
 
 class Topology:
@@ -125,6 +129,16 @@ class Topology:
     def _close(self, why: str) -> None:
         close(self._views, FIELDS, why)
         self._views, self.lowered = _jit.Views(), None
+
+    def take_edges_and_faces(self, made: Arrays) -> None:
+        """Take the columns of a mesh that was built over the vertices that are there, where no edge was yet."""
+        counts = self._arrays.counts
+        counts[[EDGE_SLOTS, FACE_SLOTS, N_EXTERIOR]] = made.counts[[EDGE_SLOTS, FACE_SLOTS, N_EXTERIOR]]
+        counts[REVISION] += 1
+        for name in ("counts", *SCRATCH):
+            setattr(made, name, getattr(self._arrays, name))
+        self.lowered = None
+        self._adopt(made)
 
     # -- transactions --------------------------------------------------------------------------------------------
 

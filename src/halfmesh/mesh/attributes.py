@@ -31,14 +31,19 @@ class Column:
     elements: the quickest, for elements that were there before.
     """
 
-    __slots__ = ("_proxy", "default", "policy", "values")
+    __slots__ = ("default", "lowered", "policy", "values")
 
     def __init__(self, values: NDArray[Any], default: Any = 0, policy: Policy | None = None) -> None:
         self.values = values
         self.default = np.empty((1, *values.shape[1:]), values.dtype)
         self.default[...] = default
         self.policy = default_policy(values.dtype) if policy is None else checked_policy(policy, values.dtype)
-        self._proxy: Any = None
+        self.lowered: Any = None  # the compiled form, once it was asked for
+
+    @property
+    def form(self) -> str:
+        """Dtype and shape of a value, as text."""
+        return f"{self.values.dtype}{list(self.values.shape[1:]) or ''}"
 
     def copy(self, n: int) -> Column:
         """A column with the first n values."""
@@ -51,13 +56,13 @@ class Column:
             made = np.empty((max(n, 2 * len(self.values), 16), *self.values.shape[1:]), self.values.dtype)
             made[: len(self.values)] = self.values
             made[len(self.values) :] = self.default
-            self.values, self._proxy = made, None
+            self.values, self.lowered = made, None
 
     def forget_compiled(self) -> None:
         """Let the compiled form go, which refers to the column's array."""
-        if self._proxy is not None:
+        if self.lowered is not None:
             self.__refresh__((), compiled=True)
-            self._proxy = None
+            self.lowered = None
 
     def __getitem__(self, key: Any) -> Any:
         return self.values[key]
@@ -73,13 +78,17 @@ class Column:
         return self
 
     def __compiled__(self) -> Any:
-        if self._proxy is None:
-            self._proxy = _CARRIER.make(self.values, self.default)
-        return self._proxy
+        if self.lowered is None:
+            self.lowered = _CARRIER.make(self.values, self.default)
+        return self.lowered
+
+    def catch_up(self) -> None:
+        """Take the array from the compiled form, in which it has grown."""
+        self.__refresh__((), compiled=True)
 
     def __refresh__(self, args: tuple[Any, ...], compiled: bool) -> None:
         if compiled:
-            values = _CARRIER.take(self._proxy)[0]
+            values = _CARRIER.take(self.lowered)[0]
             if values.ctypes.data != self.values.ctypes.data:
                 self.values = values
 
@@ -299,6 +308,42 @@ class AttributeTable(MutableMapping[str, NDArray[Any]]):
         for name, column in self._columns.items():
             column.reach(len(new_of_old))
             self._columns[name] = Column(column.values[living], column.default, column.policy)
+
+    def _check_fits(self, other: AttributeTable) -> None:
+        """Refuse another table with an attribute of the same name that is of another kind."""
+        for name, theirs in other._columns.items():
+            mine = self._columns.get(name)
+            if mine is not None and mine.form != theirs.form:
+                raise InvalidMeshError(
+                    f"{self._kind} data {name!r} is {mine.form} here and {theirs.form} in the other mesh; "
+                    "convert one of them first",
+                    reason="bad_attribute",
+                )
+
+    def _append(self, others: dict[str, Column]) -> None:
+        """Take over the rows of the elements that were appended: all these have equally many, the last ones here."""
+        n = self._size()
+        for name, theirs in others.items():
+            if name not in self._columns:
+                self._set(name, Column(theirs.values[:0], theirs.default, theirs.policy))
+        for name, column in self._columns.items():
+            column.reach(n)
+            if name in others:
+                rows = others[name].values
+                column.values[n - len(rows) : n] = rows
+
+    def _put(self, name: str, first: int, rows: NDArray[Any]) -> None:
+        """Give values to new elements, from this one on."""
+        column = self._columns[name]
+        column.reach(first + len(rows))
+        column.values[first : first + len(rows)] = rows
+
+    def _columns_of(self, indices: NDArray[np.int64]) -> dict[str, Column]:
+        """Copies with the rows of these elements only."""
+        n = self._size()
+        for column in self._columns.values():
+            column.reach(n)
+        return {name: Column(c.values[indices], c.default, c.policy) for name, c in self._columns.items()}
 
     def _columns_in_use(self) -> dict[str, Column]:
         """Copies without spare room."""

@@ -91,7 +91,7 @@ class Keeper:
 
     def rows_of(self, notes: NDArray[np.int32]) -> NDArray[np.int64]:
         """The rows that were there before and will be written when the notes are replayed."""
-        rows = np.empty(len(notes) // 5 + 1, np.int64)
+        rows = np.empty(len(notes), np.int64)
         return rows[: noted_elements.at(len(notes) // 5)(notes, len(notes), self.kind, self.n, rows)].copy()
 
     def keep_rows(self, column: Column, rows: NDArray[np.int64]) -> None:

@@ -36,6 +36,7 @@ from halfmesh.mesh.attributes import AttributeTable, Column
 from halfmesh.mesh.collections import Collection
 from halfmesh.mesh.editing import Editable
 from halfmesh.mesh.elements import Edge, Face, Halfedge, Vertex, made
+from halfmesh.mesh.positions import as_points
 from halfmesh.mesh.summary import Summary, summarize
 from halfmesh.mesh.transactions import TABLES, Undoable
 
@@ -112,7 +113,7 @@ class Mesh(Editable, Undoable):
     ) -> None:
         started = time.perf_counter()
         _refuse_swapped(faces, points)
-        positions = None if points is None else _as_points(points)
+        positions = None if points is None else as_points(points)
         wire = None if edges is None else as_indices(edges, "edges", 2)
         face_list = as_face_list(faces, n_vertices, None if positions is None else len(positions), wire)
         topology = _topology(face_list, twins)
@@ -171,7 +172,7 @@ class Mesh(Editable, Undoable):
 
     @points.setter
     def points(self, points: ArrayLike) -> None:
-        self.vertex_data["points"] = _as_points(points)
+        self.vertex_data["points"] = as_points(points)
         self.has_points = True
 
     @property
@@ -373,23 +374,3 @@ def _refuse_swapped(faces: Any, points: Any) -> None:
         raise InvalidMeshError(
             "faces are floats and points are integers; the order is Mesh(faces, points)", reason="bad_dtype"
         )
-
-
-def _as_points(points: ArrayLike) -> Floats:
-    if isinstance(points, np.ma.MaskedArray):
-        raise InvalidMeshError("points is a masked array; fill or drop the masked rows first", reason="bad_points")
-    try:
-        array = np.asarray(points)
-    except ValueError as error:
-        raise InvalidMeshError(f"points is no array of numbers: {error}", reason="bad_points") from None
-    if array.size == 0 and array.ndim <= 2:
-        return np.zeros((0, 3))
-    if array.dtype.kind not in "iuf":
-        raise InvalidMeshError(f"points has dtype {array.dtype}; expected real numbers", reason="bad_points")
-    if array.ndim != 2 or array.shape[1] not in (2, 3):
-        raise InvalidMeshError(f"points has shape {array.shape}; expected (n, 3) or (n, 2)", reason="bad_points")
-    if array.shape[1] == 3:
-        return np.array(array, dtype=np.float64, order="C", subok=False)
-    made = np.zeros((len(array), 3))
-    made[:, :2] = array
-    return made

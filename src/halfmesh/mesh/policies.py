@@ -13,6 +13,8 @@ policy         a new element between        two elements become one             
 ``sum``        0                            the sum                             its share: the total is kept
 a function     ``f(values, weights)``       ``f(values, weights)``              keeps the value
 =============  ===========================  ==================================  ==============================
+
+Where elements only change places their values do too, whatever the policy.
 """
 
 from __future__ import annotations
@@ -25,7 +27,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from halfmesh._jit import kernel
-from halfmesh.core.notes import BETWEEN, COPY, PART, UNION, WEDGE
+from halfmesh.core.notes import BETWEEN, COPY, CYCLE, PART, UNION, WEDGE
 
 __all__ = ["POLICIES", "Policy", "checked_policy", "default_policy", "replay"]
 
@@ -102,6 +104,8 @@ def _replay(values: Any, notes: Any, weights: Any, size: int, kind: int, policy:
             first = place + 4
             if relation == COPY:
                 _take(values, element, notes[first])
+            elif relation == CYCLE:
+                _exchange(values, element, notes, first, n)
             elif relation == PART:
                 if policy == SUM:
                     _share(values, element, notes[first], weights[first], rounds)
@@ -124,6 +128,17 @@ def _replay(values: Any, notes: Any, weights: Any, size: int, kind: int, policy:
 def _take(values: Any, element: int, source: int) -> None:
     for j in range(values.shape[1]):
         values[element, j] = values[source, j]
+
+
+@kernel
+def _exchange(values: Any, element: int, notes: Any, first: int, n: int) -> None:
+    """Pass the values on around a ring, each to the one before."""
+    for j in range(values.shape[1]):
+        held, at = values[element, j], element
+        for i in range(first, first + n):
+            values[at, j] = values[notes[i], j]
+            at = notes[i]
+        values[at, j] = held
 
 
 @kernel
@@ -208,6 +223,8 @@ def _replay_by_function(values: Any, function: Callable[..., Any], kind: int, no
             continue
         if relation in (COPY, PART):
             values[element] = values[sources[0]]
+        elif relation == CYCLE:
+            values[[element, *sources]] = values[[*sources, element]]
         elif relation in (BETWEEN, UNION):
             values[element] = function(values[sources], shares.copy())
         else:

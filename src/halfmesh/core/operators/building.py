@@ -1,23 +1,16 @@
-"""Building by hand: vertices, edges and faces are added one by one, and taken away again.
+"""Building by hand: vertices and edges are added one by one, and taken away again as faces are.
 
-An edge is hung into gaps, without a face. A face is laid along halfedges that have none; where two that should follow
-each other do not yet, what lies between them around their vertex is moved into another gap. So faces can be added in
-any order, two may touch at a vertex only, and no order of adding leads into a dead end that the result would not be.
-What is taken away leaves what it stood on: faces leave wire, edges leave isolated vertices.
+An edge is hung into gaps, without a face. What is taken away leaves what it stood on: faces leave wire, edges leave
+isolated vertices. How faces are added: see `faces`.
 """
 
 from __future__ import annotations
 
 from typing import Any
 
-import numpy as np
-
 from halfmesh._jit import kernel, operation
-from halfmesh.core.attempts import begin_attempt, end_attempt
 from halfmesh.core.navigation import (
-    ccw_of,
     face_of,
-    face_slots,
     halfedge_of_face,
     halfedge_of_vertex,
     is_exterior,
@@ -25,20 +18,16 @@ from halfmesh.core.navigation import (
     origin_of,
     prev_of,
     target_of,
+    vertex_slots,
 )
-from halfmesh.core.operators.asking import both_status, edge_status, face_status, halfedge_status, vertex_status
-from halfmesh.core.operators.gaps import show_gap
-from halfmesh.core.pens import changed, link, set_face, set_halfedge_of_vertex
-from halfmesh.core.slots import delete_edge, delete_face, delete_vertex, is_full, new_edge, new_face, new_vertex
+from halfmesh.core.operators.asking import both_status, edge_status, face_status, vertex_status
+from halfmesh.core.pens import changed, link, set_face, set_halfedge_of_vertex, set_next, set_prev
+from halfmesh.core.slots import delete_edge, delete_face, delete_vertex, is_full, new_edge, new_vertex, reserve
 from halfmesh.core.statuses import (
     CLOSED_VERTEX,
-    EMPTY_FACE,
-    FEW_VERTICES,
     NO_GAP,
     NOT_A_CHAIN,
     OK,
-    REPEATED_HALFEDGE,
-    REPEATED_VERTEX,
     TAKEN_HALFEDGE,
     TOO_LARGE,
 )
@@ -50,15 +39,17 @@ __all__ = [
     "add_vertex",
     "find_free_between",
     "find_free_incident",
+    "hung_edge",
+    "is_closed",
     "make_adjacent",
     "make_adjacent_status",
+    "make_follow",
     "remove_edge",
     "remove_face",
     "remove_vertex",
     "try_add_edge",
-    "try_add_face",
-    "try_add_face_of_vertices",
     "try_add_vertex",
+    "try_add_vertices",
     "try_make_adjacent",
     "try_remove_edge",
     "try_remove_face",
@@ -85,13 +76,27 @@ def try_add_vertex(t: Any) -> int:
     return add_vertex(t)
 
 
+@kernel
+def try_add_vertices(t: Any, n: int) -> int:
+    """Add so many isolated vertices: the first, or the negative code. Cost: O(n), amortised."""
+    if is_full(t, n, 0, 0):
+        return -TOO_LARGE
+    first = vertex_slots(t)
+    if first + n > len(t.vertex_halfedge):
+        reserve(t, max(n, first // 2), 0, 0)
+    for _ in range(n):
+        new_vertex(t)
+    changed(t)
+    return first
+
+
 # -- an edge -------------------------------------------------------------------------------------------------------
 
 
 @operation
 def add_edge_status(t: Any, u: int, v: int) -> int:
     """Whether an edge may be added from `u` to `v`: ``OK`` or a code. A loop or a parallel edge may. Cost: O(1)."""
-    if _is_closed(t, u, -1) or _is_closed(t, v, -1):
+    if is_closed(t, u, -1) or is_closed(t, v, -1):
         return CLOSED_VERTEX
     if is_full(t, 0, 1, 0):
         return TOO_LARGE
@@ -110,7 +115,7 @@ def add_edge(t: Any, u: int, v: int) -> int:
                 v    ^          -->           v ^  | ^
                   (u)                          (u) v          and likewise at v; `gap` and `before` are exterior
     """
-    h = _hung_edge(t, u, v)
+    h = hung_edge(t, u, v)
     changed(t)
     return h
 
@@ -142,14 +147,15 @@ def try_add_edge(t: Any, u: int, v: int) -> int:
 
 
 @kernel
-def _is_closed(t: Any, v: int, planned: int) -> bool:
+def is_closed(t: Any, v: int, planned: int) -> bool:
     """Whether faces close all around the vertex; what has the face `planned` counts as a gap still."""
     h = halfedge_of_vertex(t, v)
     return h >= 0 and not is_exterior(t, h) and face_of(t, h) != planned
 
 
 @kernel
-def _hung_edge(t: Any, u: int, v: int) -> int:
+def hung_edge(t: Any, u: int, v: int) -> int:
+    """What `add_edge` does, as a part of something larger."""
     h = new_edge(t, u, v)
     _hang(t, h, halfedge_of_vertex(t, u))
     _hang(t, h ^ 1, halfedge_of_vertex(t, v))  # for a loop at an isolated vertex this is `h` by now
@@ -159,13 +165,16 @@ def _hung_edge(t: Any, u: int, v: int) -> int:
 @kernel
 def _hang(t: Any, h: int, gap: int) -> None:
     """Hang the origin of the new halfedge `h` before `gap`; -1 if the vertex is isolated."""
-    before = h ^ 1
     if gap >= 0:
         before = prev_of(t, gap)
-        link(t, h ^ 1, gap)
+        t.next[h ^ 1] = gap  # nobody has to know what a new slot held before: no pen
+        t.prev[h] = before
+        set_prev(t, gap, h ^ 1)
+        set_next(t, before, h)
     else:
+        t.next[h ^ 1] = h
+        t.prev[h] = h ^ 1
         set_halfedge_of_vertex(t, origin_of(t, h), h)
-    link(t, before, h)
 
 
 # -- two halfedges, one after the other ----------------------------------------------------------------------------
@@ -223,7 +232,7 @@ def make_adjacent(t: Any, h_in: int, h_out: int) -> None:
         | is a gap; d and b may be the same fan; A, B: faces and edges
     """
     if next_of(t, h_in) != h_out:
-        _make_follow(t, h_in, h_out, find_free_between(t, origin_of(t, h_out), h_out ^ 1, h_in))
+        make_follow(t, h_in, h_out, find_free_between(t, origin_of(t, h_out), h_out ^ 1, h_in))
         changed(t)
 
 
@@ -239,144 +248,12 @@ def try_make_adjacent(t: Any, h_in: int, h_out: int) -> int:
 
 
 @kernel
-def _make_follow(t: Any, h_in: int, h_out: int, g: int) -> None:
+def make_follow(t: Any, h_in: int, h_out: int, g: int) -> None:
+    """What `make_adjacent` does, where `g` is known to be a free halfedge between."""
     b, d, h = next_of(t, h_in), prev_of(t, h_out), next_of(t, g)
     link(t, h_in, h_out)
     link(t, g, b)
     link(t, d, h)
-
-
-# -- a face --------------------------------------------------------------------------------------------------------
-
-
-@operation
-def try_add_face(t: Any, halfedges: Any) -> int:
-    """Add a face with these halfedges, in this order: the face, or the negative code, and nothing changed.
-
-    They are made adjacent where they are not. The face may have one side or two, run along both sides of an edge, and
-    pass a vertex several times. ``NO_GAP`` says that there is no way to have it. Cost: the degrees of its corners.
-    """
-    status = _face_status(t, halfedges)
-    if status != OK:
-        return -status
-    before = begin_attempt(t)
-    f = _lay_face(t, halfedges)
-    end_attempt(t, before, f >= 0)
-    return f
-
-
-@operation
-def try_add_face_of_vertices(t: Any, vertices: Any) -> int:
-    """Add a face with these corners, in this order: the face, or the negative code, and nothing changed.
-
-    Its sides are the first free halfedges found, and new edges between vertices that no edge joins yet. Where parallel
-    edges are to choose from, add the face by its halfedges. Cost: the degrees of its corners.
-    """
-    n = len(vertices)
-    status = _corners_status(t, vertices)
-    if status != OK:
-        return -status
-    before = begin_attempt(t)
-    halfedges = np.empty(n, np.int64)
-    f = face_slots(t)  # marks what the face has chosen already, until all are chosen
-    for i in range(n):
-        h = _side(t, int(vertices[i]), int(vertices[i + 1 if i + 1 < n else 0]), f)
-        if h < 0:
-            status = -h
-            break
-        halfedges[i] = h
-        set_face(t, h, f)
-    if status == OK:
-        for i in range(n):
-            set_face(t, int(halfedges[i]), -1)
-        f = _lay_face(t, halfedges)
-    else:
-        f = -status
-    end_attempt(t, before, f >= 0)
-    return f
-
-
-@kernel
-def _face_status(t: Any, halfedges: Any) -> int:
-    """What can be said before anything is moved. Cost: the number of sides."""
-    n = len(halfedges)
-    if n == 0:
-        return EMPTY_FACE
-    for i in range(n):
-        status = halfedge_status(t, int(halfedges[i]))
-        if status != OK:
-            return status
-    for i in range(n):
-        if not is_exterior(t, int(halfedges[i])):
-            return TAKEN_HALFEDGE
-        if target_of(t, int(halfedges[i])) != origin_of(t, int(halfedges[i + 1 if i + 1 < n else 0])):
-            return NOT_A_CHAIN
-    return TOO_LARGE if is_full(t, 0, 0, 1) else OK
-
-
-@kernel
-def _corners_status(t: Any, vertices: Any) -> int:
-    n = len(vertices)
-    if n == 0:
-        return EMPTY_FACE
-    for i in range(n):
-        status = vertex_status(t, int(vertices[i]))
-        if status != OK:
-            return status
-    if n < 3:
-        return FEW_VERTICES
-    for i in range(n):
-        if int(vertices[i]) == int(vertices[i + 1 if i + 1 < n else 0]):
-            return REPEATED_VERTEX
-    return TOO_LARGE if is_full(t, 0, n, 1) else OK
-
-
-@kernel
-def _side(t: Any, u: int, v: int, planned: int) -> int:
-    """A free halfedge from `u` to `v`, made if no edge joins them; or the negative code."""
-    start = halfedge_of_vertex(t, u)
-    if start >= 0:
-        joined, x = False, start
-        while True:
-            if target_of(t, x) == v:
-                if is_exterior(t, x):
-                    return x
-                joined = True
-            x = ccw_of(t, x)
-            if x == start:
-                break
-        if joined:
-            return -TAKEN_HALFEDGE
-    if _is_closed(t, u, planned) or _is_closed(t, v, planned):
-        return -CLOSED_VERTEX
-    return _hung_edge(t, u, v)
-
-
-@kernel
-def _lay_face(t: Any, halfedges: Any) -> int:
-    """Make the halfedges adjacent and a face: it, or the negative code; the caller undoes what was half done.
-
-    A halfedge gets the face as soon as its next is settled, so it is no gap for the rest of the search. That is enough:
-    around a vertex what is settled is a set of fans, each with one free end, and two of them can be joined as long as
-    they are not the same fan. So the search fails only if the halfedges themselves ask for a ring that leaves
-    something out, whatever the order.
-    """
-    n, f = len(halfedges), face_slots(t)
-    for i in range(n):
-        h_in, h_out = int(halfedges[i]), int(halfedges[i + 1 if i + 1 < n else 0])
-        set_face(t, h_in, f)
-        if i + 1 < n and not is_exterior(t, h_out):
-            return -REPEATED_HALFEDGE
-        if next_of(t, h_in) != h_out:
-            g = find_free_between(t, origin_of(t, h_out), h_out ^ 1, h_in)
-            if g < 0:
-                return -NO_GAP
-            _make_follow(t, h_in, h_out, g)
-    f = new_face(t, int(halfedges[0]))
-    for i in range(n):
-        show_gap(t, origin_of(t, int(halfedges[i])))
-    changed(t)
-    return f
 
 
 # -- taking away ---------------------------------------------------------------------------------------------------

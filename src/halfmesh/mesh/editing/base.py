@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any, NoReturn, TypeVar
 
 import numpy as np
 
-from halfmesh._jit import Operation
+from halfmesh._jit import Operation, lowered
 from halfmesh.core.statuses import DELETED_ELEMENT, MISSING_ELEMENT, REASONS
 from halfmesh.core.topology import NEWS
 from halfmesh.errors import ElementError, InvalidMeshError, StaleElementError, TopologyError
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
     from halfmesh.mesh.attributes import AttributeTable
 
-__all__ = ["Base", "as_fraction", "as_point"]
+__all__ = ["Base", "as_fraction", "as_point", "as_xyz"]
 
 E = TypeVar("E", bound=Element)
 
@@ -92,7 +92,7 @@ class Base(Counted):
         run: Any = operation.at(_ABOUT_AS_LONG_AS)
         result: int = run(self, *args)
         if "compiled" in operation.__dict__:
-            operation.quick = operation.entry(self._topology.__compiled__(), *args)
+            operation.quick = operation.entry(self._topology.__compiled__(), *map(lowered, args))
         return result
 
     def _catch_up(self) -> None:
@@ -128,6 +128,23 @@ def as_fraction(at: float) -> float:
     if not 0.0 <= at <= 1.0:  # which NaN is not
         raise InvalidMeshError(f"at={at!r} is no place on the edge: it runs from 0 to 1", reason="bad_parameter")
     return float(at)
+
+
+def as_xyz(point: ArrayLike) -> tuple[float, float, float]:
+    """The same as three floats: quickly, where they are such already."""
+    given: Any = point.tolist() if type(point) is np.ndarray else point
+    kind = type(given)
+    if kind is list or kind is tuple:
+        try:
+            x, y, z = given
+            if type(x) is float and type(y) is float and type(z) is float:
+                total = x + y + z
+                if total - total == 0.0:  # which infinity and NaN are not
+                    return x, y, z
+        except ValueError:  # other than three
+            pass
+    x, y, z = as_point(point).tolist()
+    return x, y, z
 
 
 def as_point(point: ArrayLike) -> NDArray[np.float64]:

@@ -2,24 +2,25 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NoReturn
 
 import numpy as np
 
 from halfmesh.core.operators.building import (
     try_add_edge,
-    try_add_face,
-    try_add_face_of_vertices,
     try_add_vertex,
     try_make_adjacent,
     try_remove_edge,
     try_remove_face,
     try_remove_vertex,
 )
+from halfmesh.core.operators.faces import try_add_face, try_add_face_of_vertices, try_add_quad, try_add_triangle
 from halfmesh.core.search import find_halfedge
-from halfmesh.core.statuses import LOOP_EDGE
-from halfmesh.mesh.editing.base import Base, as_point
-from halfmesh.mesh.elements import Edge, Face, Halfedge, Vertex
+from halfmesh.core.statuses import LOOP_EDGE, MISSING_ELEMENT
+from halfmesh.core.topology import NEWS
+from halfmesh.mesh.editing.base import Base, as_xyz
+from halfmesh.mesh.editing.placing import try_add_vertex_at
+from halfmesh.mesh.elements import Edge, Element, Face, Halfedge, Vertex
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -27,6 +28,8 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
 __all__ = ["Building"]
+
+_new: Any = object.__new__  # `made`, where a call more counts
 
 
 class Building(Base):
@@ -63,14 +66,26 @@ class Building(Base):
         >>> mesh.add_vertex([1, 2, 3]).point.tolist()
         [1.0, 2.0, 3.0]
         """
-        place = None if point is None else as_point(point)
-        v = self._act(try_add_vertex)
+        if point is None:
+            v = self._act(try_add_vertex)
+        else:
+            x, y, z = as_xyz(point)
+            column = self.vertex_data._columns["points"]
+            quick, carrier, points = try_add_vertex_at.quick, self._topology.lowered, column.lowered
+            if quick is None or carrier is None or points is None:
+                v = self._act_slowly(try_add_vertex_at, (column, x, y, z))
+            else:
+                v = quick(carrier, points, x, y, z)
+                if self._t.counts[NEWS]:
+                    column.catch_up()
+                    self._catch_up()
+            self.has_points = True
         if v < 0:
             self._refuse("add", v, ("a", "vertex"))
-        if place is not None:
-            self.vertex_data.row("points", v)[:] = place
-            self.has_points = True
-        return self._made(Vertex, v)
+        vertex: Vertex = _new(Vertex)
+        vertex._t = self._t
+        vertex.index = v
+        return vertex
 
     def add_edge(
         self, u: Vertex | int, v: Vertex | int, *, allow_loop: bool = True, allow_parallel: bool = True
@@ -162,23 +177,54 @@ class Building(Base):
         >>> mesh.n_edges, [h.index for h in g.neighbors()]
         (5, [0])
         """
-        if (vertices is None) == (halfedges is None):
-            raise TypeError("add_face takes either vertices or halfedges=")
-        if vertices is not None:
-            corners = self._indices(Vertex, vertices)
-            f = self._act(try_add_face_of_vertices, corners)
-            kind = "vertices"
-        else:
-            assert halfedges is not None
-            corners = self._indices(Halfedge, halfedges)
-            f = self._act(try_add_face, corners)
-            kind = "halfedges"
+        if vertices is None or halfedges is not None:
+            return self._add_face_along(vertices, halfedges)
+        corners = vertices if type(vertices) is list or type(vertices) is tuple else list(vertices)
+        t = self._t
+        try:
+            if len(corners) == 3:  # by the million: without a loop, a list, an array, or a call but one
+                a, b, c = corners
+                a = a.index if type(a) is Vertex and a._t is t else a if type(a) is int else self._index(Vertex, a)
+                b = b.index if type(b) is Vertex and b._t is t else b if type(b) is int else self._index(Vertex, b)
+                c = c.index if type(c) is Vertex and c._t is t else c if type(c) is int else self._index(Vertex, c)
+                quick, carrier = try_add_triangle.quick, self._topology.lowered
+                if quick is None or carrier is None:
+                    f = self._act_slowly(try_add_triangle, (a, b, c))
+                else:
+                    f = quick(carrier, a, b, c)
+                    if t.counts[NEWS]:
+                        self._catch_up()
+            else:
+                indices = [self._index(Vertex, v) for v in corners]
+                if len(indices) == 4:
+                    f = self._act(try_add_quad, *indices)
+                else:
+                    f = self._act(try_add_face_of_vertices, np.array(indices, dtype=np.int64))
+        except (OverflowError, ValueError):  # no index is so large: no int64, or no item of a memoryview
+            f = -MISSING_ELEMENT
         if f < 0:
-            self._refuse("add a face with", f, (kind, corners.tolist()))
+            self._refuse_face(Vertex, corners, f)
+        face: Face = _new(Face)
+        face._t = t
+        face.index = f
+        return face
+
+    def _add_face_along(self, vertices: Any, halfedges: Iterable[Halfedge | int] | None) -> Face:
+        if vertices is not None or halfedges is None:
+            raise TypeError("add_face takes either vertices or halfedges=")
+        sides = list(halfedges)
+        try:
+            f = self._act(try_add_face, np.array([self._index(Halfedge, h) for h in sides], dtype=np.int64))
+        except (OverflowError, ValueError):
+            f = -MISSING_ELEMENT
+        if f < 0:
+            self._refuse_face(Halfedge, sides, f)
         return self._made(Face, f)
 
-    def _indices(self, kind: type[Any], elements: Iterable[Any]) -> Any:
-        return np.array([self._living(kind, x) for x in elements], dtype=np.int64)
+    def _refuse_face(self, kind: type[Element], elements: list[Any] | tuple[Any, ...], code: int) -> NoReturn:
+        """Raise for the element that is missing or deleted, or for what the code says of them together."""
+        indices = [getattr(self, kind.plural).resolve(x) for x in elements]
+        self._refuse("add a face with", code, (kind.plural, indices))
 
     def make_adjacent(self, arriving: Halfedge | int, leaving: Halfedge | int) -> None:
         """Reorder what hangs around a vertex so that ``arriving.next == leaving``.
