@@ -39,7 +39,7 @@ def main() -> int:
 def parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser("benchmarks", description="halfmesh beside other mesh libraries")
     parser.add_argument("command", nargs="?", choices=["run", "render"], default="run")
-    parser.add_argument("--quick", action="store_true", help="small meshes and few rounds, under two minutes")
+    parser.add_argument("--quick", action="store_true", help="small meshes and few rounds")
     parser.add_argument("--only", default="", metavar="TASK,...", help=", ".join(TASKS))
     parser.add_argument("--peers", default="", metavar="NAME,...", help=", ".join(environment.LIBRARIES))
     return parser

@@ -1,8 +1,8 @@
 """The meshes that everything is measured on: made once from fixed seeds, cached in `.bench/data`.
 
 Names: `sphere-6` and `sphere-6-shuffled` (a bumpy noisy icosphere of level 6, 7 or 8: 81,920, 327,680 or 1,310,720
-triangles), the adversarial `fan-first-N fan-last-N bipyramid-N book-N`, the polygons `quads-N mixed-N polygon-N`, and
-`file:NAME` for a file of the corpus beside the repository.
+triangles), the adversarial `fan-first-N fan-last-N bipyramid-N book-N`, the polygons `quads-N mixed-N polygon-N`, the
+triangles `grid-N` row by row, and `file:NAME` for a file of the corpus beside the repository.
 """
 
 from __future__ import annotations
@@ -164,6 +164,14 @@ def mixed(n_corners: int) -> Surface:
     return Surface((indices, np.concatenate([[0], np.cumsum(degrees)]).astype(np.int32)), grid.points)
 
 
+def grid(n: int) -> Surface:
+    """The first n triangles of a square grid, row by row: every one hangs on those before it."""
+    halves = quads(4 * (n // 2 + 2 * round((n / 2) ** 0.5) + 1))
+    assert not isinstance(halves.faces, tuple)
+    faces = np.ascontiguousarray(halves.faces[:, [0, 1, 2, 0, 2, 3]].reshape(-1, 3)[:n])
+    return Surface(faces, halves.points[: faces.max() + 1])
+
+
 def polygon(n: int) -> Surface:
     """One face with n sides."""
     return Surface((np.arange(n, dtype=np.int32), np.array([0, n], np.int32)), circle(n))
@@ -171,7 +179,7 @@ def polygon(n: int) -> Surface:
 
 MAKERS: dict[str, Callable[[int], Surface]] = {
     "sphere": sphere, "fan-first": fan_first, "fan-last": fan_last, "bipyramid": bipyramid, "book": book,
-    "quads": quads, "mixed": mixed, "polygon": polygon,
+    "quads": quads, "mixed": mixed, "grid": grid, "polygon": polygon,
 }  # fmt: skip
 
 

@@ -3,14 +3,35 @@
 from __future__ import annotations
 
 from benchmarks.build import BUILD, POLYGONS, WORST
+from benchmarks.edits import EDITS
 from benchmarks.first_use import FIRST_USE
+from benchmarks.growing import BULK, GROWING
 from benchmarks.handles import HANDLES
 from benchmarks.memory import MEMORY
 from benchmarks.normals import NORMALS
+from benchmarks.operators import OPERATORS
+from benchmarks.queries import QUERIES
 from benchmarks.reading import READING
 from benchmarks.rings import RINGS
 from benchmarks.writing import WRITING
 
 TASKS = {
-    task.name: task for task in (BUILD, WORST, POLYGONS, READING, WRITING, RINGS, HANDLES, NORMALS, MEMORY, FIRST_USE)
+    task.name: task
+    for task in (
+        BUILD,
+        WORST,
+        POLYGONS,
+        READING,
+        WRITING,
+        RINGS,
+        HANDLES,
+        OPERATORS,
+        EDITS,
+        GROWING,
+        BULK,
+        QUERIES,
+        NORMALS,
+        MEMORY,
+        FIRST_USE,
+    )
 }

@@ -16,22 +16,26 @@ class NotOfferedError(Exception):
 
 @dataclass(frozen=True)
 class Way:
-    """One way to do a task: a call without arguments, and what to know about it.
+    """One way to do a task: a call, and what to know about it.
 
-    `items` is how many elements one call treats (its unit is the task's), 0 for the case's own number; `facts` turns
-    the result of a call into figures that every library must agree on; `points` takes the coordinates out of it.
+    `fresh` makes what a call takes and uses up, a mesh to be changed, before the clock starts; without it the call
+    takes nothing. `items` is how many elements one call treats (its unit is the task's), 0 for the case's own number;
+    `facts` turns the result of a call into figures that every library must agree on; `points` takes the coordinates
+    out of it.
     """
 
-    run: Callable[[], Any]
+    run: Callable[..., Any]
     note: str = ""
     items: int = 0
     facts: Callable[[Any], dict[str, float]] = lambda result: {}
     points: Callable[[Any], Any] = lambda result: None
+    fresh: Callable[[], Any] | None = None
 
 
 @dataclass(frozen=True)
 class Plan:
-    """How large: levels of the sphere, sizes of the adversarial meshes. How long: rounds and seconds in one process.
+    """How large: levels of the sphere, sizes of the adversarial meshes and of those that grow; how many steps through
+    handles, and turns of an operator and queries. How long: rounds and seconds in one process.
 
     Passes go over all libraries, each in a new process, so that a slow moment of the machine meets them all.
     """
@@ -42,6 +46,8 @@ class Plan:
     adversarial: int = 100_000
     sides: int = 1_000_000
     steps: int = 200_000
+    growing: tuple[int, ...] = (10_000, 100_000, 1_000_000)
+    turns: int = 1_000
     rounds: int = 4
     seconds: float = 4.0
     passes: int = 3
@@ -55,6 +61,7 @@ QUICK = Plan(
     adversarial=10_000,
     sides=100_000,
     steps=20_000,
+    growing=(1_000, 10_000, 100_000),
     rounds=3,
     seconds=1.0,
     passes=1,
@@ -82,7 +89,7 @@ def race(ways: dict[str, Way], plan: Plan, items: int) -> list[Timing]:
     """Time the ways in turns, so that a slow moment of the machine meets them all; collect garbage before each call."""
     timings, seconds = [], {label: list[float]() for label in ways}
     for label, way in ways.items():
-        elapsed, result = timed(way.run)
+        elapsed, result = timed(way)
         timings.append(Timing(label, way.note, way.items or items, elapsed, facts=way.facts(result)))
         del result
     until = perf_counter() + plan.seconds
@@ -90,15 +97,16 @@ def race(ways: dict[str, Way], plan: Plan, items: int) -> list[Timing]:
         if turn and perf_counter() > until:
             break
         for label, way in ways.items():
-            seconds[label].append(timed(way.run)[0])
+            seconds[label].append(timed(way)[0])
     for timing in timings:
         own = seconds[timing.way]
         timing.best, timing.median, timing.runs = min(own), median(own), len(own)
     return timings
 
 
-def timed(run: Callable[[], Any]) -> tuple[float, Any]:
+def timed(way: Way) -> tuple[float, Any]:
+    taken = (way.fresh(),) if way.fresh else ()
     gc.collect()
     start = perf_counter()
-    result = run()
+    result = way.run(*taken)
     return perf_counter() - start, result

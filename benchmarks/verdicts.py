@@ -4,7 +4,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
+from benchmarks import edits
 from benchmarks.figures import OURS, Figures, Record, fastest, ratio
+from benchmarks.growing import growth
+from benchmarks.operators import FLIP, QUOTED, QUOTED_TRIANGLES, SPLIT
+from benchmarks.operators import operations as operations_of
+from benchmarks.queries import SMALLEST
 from benchmarks.task import size
 
 WORDS = {True: "yes", False: "no", None: "not measured"}
@@ -21,7 +26,7 @@ class Verdict:
 
 
 def verdicts(figures: Figures) -> list[Verdict]:
-    groups = (building, adversarial, polygons, memory, loops, files, first_use)
+    groups = (building, adversarial, polygons, memory, loops, operators, editing, growing, files, first_use)
     return [row for group in groups for row in group(figures)]
 
 
@@ -31,6 +36,11 @@ def at_least(what: str, bar: float, figure: float | None, unit: str, more: str =
 
 def at_most(what: str, bar: float, figure: float | None, unit: str, more: str = "") -> Verdict:
     return verdict(what, f"<= {bar:g} {unit}", figure, unit, None if figure is None else figure <= bar, more)
+
+
+def told(what: str, figure: float | None, unit: str, more: str = "") -> Verdict:
+    """A figure that belongs beside the others, and has no bar."""
+    return replace(at_least(what, 0, figure, unit, more), asked="", passed=None)
 
 
 def verdict(what: str, asked: str, figure: float | None, unit: str, passed: bool | None, more: str) -> Verdict:
@@ -55,11 +65,7 @@ def building(figures: Figures) -> list[Verdict]:
         rows.append(at_least(f"build, {case} triangles, against the fastest peer", bar, speed, "x", than(rival)))
         alike = fastest([r for r in figures.of("build", case) if r["peer"] != OURS and r["note"] == "half-edge mesh"])
         what = f"build, {case} triangles, against the fastest half-edge mesh"
-        rows.append(
-            replace(
-                at_least(what, 0, ratio(alike, figures.ours("build", case)), "x", than(alike)), asked="", passed=None
-            )
-        )
+        rows.append(told(what, ratio(alike, figures.ours("build", case)), "x", than(alike)))
     return rows
 
 
@@ -109,6 +115,55 @@ def loops(figures: Figures) -> list[Verdict]:
         at_most("one-ring loop with the circulator, to a do-while by hand", 1.1, ratio(kernel, fastest_by_hand), "x"),
         at_least("one-ring loop, against openmesh's Python loop", 100, ratio(loop, kernel), "x"),
         at_least("checked handle step in plain Python, against openmesh's", 2, ratio(their_step, step), "x"),
+    ]
+
+
+def operators(figures: Figures) -> list[Verdict]:
+    n, rows = 20 * 4**figures.plan.medium, []
+    for way, bar in ((SPLIT, 400), (FLIP, 25)):
+        record = figures.ours("operators", f"{n:,} coherent", way)
+        quoted = " and ".join(f"{seconds * 1e3:.0f} ({peer})" for peer, seconds in QUOTED[way].items())
+        count = f", {operations_of(record):,} times" if record else ""
+        count += f"; C++ quoted: {quoted}" if n == QUOTED_TRIANGLES else ""
+        time = None if record is None else float(record["best"]) * 1e3
+        rows.append(at_most(f"in a kernel, {n:,} triangles: {way}", bar * n / QUOTED_TRIANGLES, time, "ms", count))
+    return rows
+
+
+def editing(figures: Figures) -> list[Verdict]:
+    """From plain Python; and what is asked between operators, which must cost the same in any mesh."""
+    rows = []
+    for kind in edits.KINDS:
+        rival = figures.rival("edits", kind)
+        speed = ratio(rival, figures.ours("edits", kind))
+        rows.append(at_least(f"{kind} from plain Python, against the faster of the others", 2, speed, "x", than(rival)))
+    small, large = size(SMALLEST), size(figures.plan.large)
+    for way in ("flip, ask", "split an edge, ask"):
+        grown = ratio(figures.ours("queries", large, way), figures.ours("queries", small, way))
+        rows.append(at_most(f"{way} for all counts: in {large} triangles, to {small}", 1.5, grown, "x"))
+    return rows
+
+
+def growing(figures: Figures) -> list[Verdict]:
+    least, most = min(figures.plan.growing), max(figures.plan.growing)
+    rows = []
+    for kind in ("add_vertex", "add_face"):
+        few, many = growth(kind, least), growth(kind, most)
+        ours = figures.ours("growing", many)
+        grown = ratio(ours, figures.ours("growing", few))
+        rows.append(at_most(f"{kind}: a call of {most:,}, to one of {least:,}", 1.5, grown, "x"))
+        rival = figures.rival("growing", many, "openmesh")
+        rows.append(told(f"{kind}, {most:,} calls, against openmesh's", ratio(rival, ours), "x"))
+    case = f"{size(figures.plan.large)} coherent"
+    build = figures.ours("bulk", case, "Mesh")
+    added = figures.ours("bulk", case, "add_vertices, add_faces")
+    half = figures.ours("bulk", case, "add_faces, the second half")
+    rival = figures.rival("bulk", case, "openmesh")
+    return [
+        *rows,
+        at_most(f"add_faces, {case} triangles to an empty mesh: time, to building", 1.3, ratio(added, build), "x"),
+        told("add_faces, the second half to a mesh of the first: time per face, to building", ratio(half, build), "x"),
+        told("add_faces, against openmesh's", ratio(rival, added), "x"),
     ]
 
 

@@ -9,7 +9,23 @@ import numba
 import numpy as np
 
 import halfmesh as hm
-from benchmarks.compare.peer import Array, Peer, Surface, Way, Ways, counted, summed
+from benchmarks.compare.peer import (
+    Array,
+    Peer,
+    Surface,
+    Way,
+    Ways,
+    centres_of,
+    counted,
+    edges_of,
+    middles_of,
+    points_to_add,
+    split_of,
+    summed,
+    triangles,
+)
+from benchmarks.operators import FLIP, SPLIT
+from benchmarks.timing import NotOfferedError
 from halfmesh import outgoing, target_of
 
 COLUMNS = ("next", "prev", "origin", "face", "vertex_halfedge", "face_halfedge")
@@ -110,6 +126,140 @@ class HalfMesh(Peer):
         return {"next": Way(next_), "twin": Way(twin), "ccw": Way(ccw), "face": Way(face), "target": Way(target),
                 "walk": Way(walk)}  # fmt: skip
 
+    def operators(self, surface: Surface) -> Ways:
+        built = hm.Mesh(surface.faces, surface.points)
+
+        def split_and_collapse(mesh: hm.Mesh) -> dict[str, float]:
+            n_collapses = split_all_collapse_back(mesh, mesh.vertex_data.column("points"))
+            mesh.compact()
+            return {"collapses": n_collapses} | counted(mesh.n_vertices, mesh.n_faces)
+
+        def flip(mesh: hm.Mesh) -> dict[str, float]:
+            return {"flips": flip_every_fifth(mesh)}
+
+        return {
+            SPLIT: Way(split_and_collapse, "new points by the kernel", facts=dict, fresh=built.copy),
+            FLIP: Way(flip, facts=dict, fresh=built.copy),
+        }
+
+    def edits(self, surface: Surface, kind: str) -> Ways:
+        built = hm.Mesh(*(split_of(surface) if kind == "collapse" else surface))
+        n = len(surface.points)
+        numbers = [h.index >> 1 for u, v in edges_of(surface).tolist() if (h := built.find_halfedge(u, v))]
+
+        def edges() -> Any:
+            mesh = built.copy()
+            return mesh, [mesh.edges[e] for e in numbers]
+
+        def edges_and_points() -> Any:
+            return *edges(), list(middles_of(surface))
+
+        def faces_and_points() -> Any:
+            mesh = built.copy()
+            return mesh, list(mesh.faces), list(centres_of(surface))
+
+        def spokes() -> Any:
+            mesh, corners = built.copy(), triangles(surface)[:, 0].tolist()
+            return mesh, [mesh.find_halfedge(n + f, v) for f, v in enumerate(corners)]
+
+        def way(run: Any, note: str, fresh: Any) -> Way:
+            return Way(run, note, facts=done, fresh=fresh)
+
+        return {
+            "flip": {
+                "ask, then act": way(ask_and_flip, "", edges),
+                "in one call": way(try_to_flip, "try_flip", edges),
+            },
+            "split_edge": {"in one call": way(split_edges, "split_edge_triangular", edges_and_points)},
+            "split_face": {"in one call": way(split_faces, "", faces_and_points)},
+            "collapse": {
+                "ask, then act": way(ask_and_collapse, "", spokes),
+                "in one call": way(try_to_collapse, "refusals are caught", spokes),
+            },
+        }[kind]
+
+    def growth(self, surface: Surface, kind: str) -> Ways:
+        faces = triangles(surface).tolist()
+
+        def vertices(state: Any) -> tuple[int, hm.Mesh]:
+            mesh, points = state
+            for point in points:
+                mesh.add_vertex(point)
+            return len(points), mesh
+
+        def add_faces(state: Any) -> tuple[int, hm.Mesh]:
+            mesh, rows = state
+            for row in rows:
+                mesh.add_face(row)
+            return len(rows), mesh
+
+        def handles() -> Any:
+            mesh = hm.Mesh([], surface.points)
+            v = list(mesh.vertices)
+            return mesh, [(v[a], v[b], v[c]) for a, b, c in faces]
+
+        if kind == "add_vertex":
+            return {"add": Way(vertices, facts=done, fresh=lambda: (hm.Mesh([]), points_to_add(surface)))}
+        return {
+            "add": Way(add_faces, "through handles", facts=done, fresh=handles),
+            "add, by indices": Way(add_faces, facts=done, fresh=lambda: (hm.Mesh([], surface.points), faces)),
+        }
+
+    def bulk(self, surface: Surface) -> Ways:
+        if not hasattr(hm.Mesh, "add_faces"):
+            raise NotOfferedError("adds no faces in bulk to a mesh that is there")
+        half = surface.n_faces // 2
+
+        def add_all(mesh: Any) -> tuple[int, hm.Mesh]:
+            mesh.add_vertices(surface.points)
+            mesh.add_faces(surface.faces)
+            return surface.n_faces, mesh
+
+        def add_second_half(mesh: Any) -> tuple[int, hm.Mesh]:
+            mesh.add_faces(surface.faces[half:])
+            return surface.n_faces - half, mesh
+
+        return {
+            "add_vertices, add_faces": Way(add_all, "to an empty mesh", facts=done, fresh=lambda: hm.Mesh([])),
+            "add_faces, the second half": Way(
+                add_second_half,
+                "to a mesh of the first",
+                items=surface.n_faces - half,
+                fresh=lambda: hm.Mesh(surface.faces[:half], surface.points),
+            ),
+            "Mesh": Way(lambda: (surface.n_faces, hm.Mesh(surface.faces, surface.points)), "built", facts=done),
+        }
+
+    def queries(self, surface: Surface, n: int) -> Ways:
+        built = hm.Mesh(surface.faces, surface.points)
+
+        def handles() -> Any:
+            mesh = built.copy()
+            return mesh, [mesh.edges[e] for e in range(n)], mesh.vertices[0]
+
+        def flips(state: Any) -> None:
+            mesh, edges, v = state
+            for e in edges:
+                mesh.try_flip(e)
+                ask(mesh, v)
+
+        def splits(state: Any) -> None:
+            mesh, edges, v = state
+            for e in edges:
+                mesh.split_edge(e)
+                ask(mesh, v)
+
+        def only(state: Any) -> None:
+            mesh, edges, v = state
+            for _ in edges:
+                ask(mesh, v)
+
+        return {
+            "flip, ask": Way(flips, fresh=handles),
+            "split an edge, ask": Way(splits, fresh=handles),
+            "ask": Way(only, "no change between", fresh=handles),
+        }
+
     def normals(self, surface: Surface) -> Ways:
         mesh = hm.Mesh(surface.faces, surface.points)
         return {
@@ -156,6 +306,111 @@ def means_by_hand(vertex_halfedge, prev, origin, points, means):  # type: ignore
         means[v, 0] = x / n
         means[v, 1] = y / n
         means[v, 2] = z / n
+
+
+# ---- changing the mesh -----------------------------------------------------------------------------------------------
+
+
+def done(result: tuple[int, hm.Mesh]) -> dict[str, float]:
+    """How many elements were treated, and what is left of the mesh: what all libraries must agree on."""
+    n, mesh = result
+    return {"operations": n} | counted(mesh.n_vertices, mesh.n_faces)
+
+
+@hm.kernel
+def split_all_collapse_back(t, points):  # type: ignore[no-untyped-def]
+    n_before = hm.vertex_slots(t)
+    for f in range(hm.face_slots(t)):
+        x = y = z = 0.0
+        for u in hm.face_vertices(t, f):
+            x += points[u, 0]
+            y += points[u, 1]
+            z += points[u, 2]
+        v = hm.split_face(t, f)
+        points[v, 0] = x / 3
+        points[v, 1] = y / 3
+        points[v, 2] = z / 3
+    n = 0
+    for v in range(n_before, hm.vertex_slots(t)):
+        h = hm.halfedge_of_vertex(t, v)
+        if hm.collapse_status(t, h) == 0:
+            hm.collapse(t, h)
+            n += 1
+    return n
+
+
+@hm.kernel
+def flip_every_fifth(t):  # type: ignore[no-untyped-def]
+    n = 0
+    for e in range(0, hm.edge_slots(t), 5):
+        if hm.flip_status(t, e) == 0:
+            hm.flip(t, e)
+            n += 1
+    return n
+
+
+def ask_and_flip(state: Any) -> tuple[int, hm.Mesh]:
+    mesh, edges = state
+    n = 0
+    for e in edges:
+        if mesh.can_flip(e):
+            mesh.flip(e)
+            n += 1
+    return n, mesh
+
+
+def try_to_flip(state: Any) -> tuple[int, hm.Mesh]:
+    mesh, edges = state
+    n = 0
+    for e in edges:
+        if mesh.try_flip(e):
+            n += 1
+    return n, mesh
+
+
+def split_edges(state: Any) -> tuple[int, hm.Mesh]:
+    mesh, edges, points = state
+    for e, point in zip(edges, points, strict=True):
+        mesh.split_edge_triangular(e, point)
+    return len(edges), mesh
+
+
+def split_faces(state: Any) -> tuple[int, hm.Mesh]:
+    mesh, faces, points = state
+    for f, point in zip(faces, points, strict=True):
+        mesh.split_face(f, point)
+    return len(faces), mesh
+
+
+def ask_and_collapse(state: Any) -> tuple[int, hm.Mesh]:
+    mesh, halfedges = state
+    n = 0
+    for h in halfedges:
+        if mesh.can_collapse(h):
+            mesh.collapse(h)
+            n += 1
+    return n, mesh
+
+
+def try_to_collapse(state: Any) -> tuple[int, hm.Mesh]:
+    mesh, halfedges = state
+    n = 0
+    for h in halfedges:
+        try:
+            mesh.collapse(h)
+            n += 1
+        except hm.TopologyError:
+            pass
+    return n, mesh
+
+
+def ask(mesh: hm.Mesh, v: hm.Vertex) -> None:
+    mesh.n_vertices  # noqa: B018
+    mesh.n_edges  # noqa: B018
+    mesh.n_faces  # noqa: B018
+    mesh.has_boundary  # noqa: B018
+    mesh.euler_characteristic  # noqa: B018
+    v.is_boundary  # noqa: B018
 
 
 peer = HalfMesh()
