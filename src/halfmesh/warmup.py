@@ -168,6 +168,7 @@ def _change() -> None:
         mesh.split_face(next(iter(mesh.faces)))
         attempt.rollback()
     _grow(mesh.vertex_data.column("points"), 100)
+    _jit.filled(mesh.points, 1, mesh.points[:1])  # what `_grow` calls, which may come from the cache
     mesh.compact()
     rewind(mesh, 0)
     reserve(mesh, 1, 1, 1)
@@ -177,7 +178,8 @@ def _sew() -> None:
     """The operators that `_change` does not come to; each by its question, and by the method that acts."""
     mesh = hm.shapes.grid(4, 4)
     a, b = mesh.vertices[6].outgoing(), mesh.vertices[8].outgoing()
-    h, rim = mesh.find_halfedge(6, 7), mesh.boundary_loops()[0]
+    h: Any = mesh.find_halfedge(6, 7)
+    rim = mesh.boundary_loops()[0]
     g = next(x for x in a if x != h)
     for question, *elements in (
         (mesh.can_split_edge_triangular, h),
@@ -203,8 +205,8 @@ def _sew() -> None:
         (mesh.try_flip, h.edge),
         (mesh.split_edge_triangular, h.twin),
         (mesh.dissolve_vertex, 7),
-        (mesh.dissolve_edge, mesh.find_halfedge(16, 17)),
-        (mesh.make_hole, mesh.find_halfedge(18, 17).face),
+        (mesh.dissolve_edge, mesh.faces[10].halfedge),
+        (mesh.make_hole, 12),
         (mesh.fill_hole, int(rim[0])),
         (mesh.add_face_to_boundary, int(rim[0]), int(rim[3])),
         (mesh.add_vertex_and_face_to_boundary, int(rim[0]), int(rim[3])),
