@@ -168,7 +168,7 @@ def _change() -> None:
         mesh.split_face(next(iter(mesh.faces)))
         attempt.rollback()
     _grow(mesh.vertex_data.column("points"), 100)
-    _jit.filled(mesh.points, 1, mesh.points[:1])  # what `_grow` calls, which may come from the cache
+    _jit.filled(mesh.points, len(mesh.points) + 1, mesh.points[:1])  # what `_grow` calls, which may come from the cache
     mesh.compact()
     rewind(mesh, 0)
     reserve(mesh, 1, 1, 1)
