@@ -105,3 +105,23 @@ def test_memory_of_attributes_is_counted(mesh):
     assert mesh.vertex_data.nbytes == 8 * 3 * 8
     mesh.vertex_data.add("x", np.uint8)
     assert mesh.vertex_data.nbytes == 8 * 3 * 8 + 8
+
+
+def test_all_others_follow_once_where_the_formula_of_one_attribute_raises():
+    def formula(values, weights):
+        raise ZeroDivisionError
+
+    mesh = hm.shapes.icosphere(1)
+    mesh.vertex_data.add("bad", float, policy=formula)
+    mesh.vertex_data.add("mass", float, policy="sum")[:] = 1.0
+    mesh.edge_data.add("length", float, policy="sum")[:] = 1.0
+    n, n_edges = mesh.n_vertices, mesh.n_edges
+    for _ in range(2):
+        with pytest.raises(ZeroDivisionError):
+            mesh.split_edge(0)
+        with pytest.raises(ZeroDivisionError):
+            mesh.collapse(mesh.halfedges[40])
+        mesh.compact()
+    assert mesh.vertex_data["mass"].sum() == n
+    assert np.isclose(mesh.edge_data["length"].sum(), n_edges - 2)
+    mesh.check()

@@ -179,8 +179,9 @@ class AttributeTable(MutableMapping[str, NDArray[Any]]):
         name : str
         policy : str or callable
             One of ``lerp mean copy sum min max first nearest normalize``, or a function ``f(values, weights)`` that
-            gives the value of an element from those of its sources, of shapes ``(n, *shape)`` and ``(n,)``. Floats
-            start with ``lerp``, everything else with ``copy``.
+            gives the value of an element from those of its sources, of shapes ``(n, *shape)`` and ``(n,)``. If it
+            raises, so does the operator, which is done nevertheless; only this attribute did not follow. Floats start
+            with ``lerp``, everything else with ``copy``.
 
         Raises
         ------
@@ -294,13 +295,22 @@ class AttributeTable(MutableMapping[str, NDArray[Any]]):
         return any(not any(column is a for a in args) for column in self._columns.values())
 
     def _replay(self, kind: int, notes: Any, weights: Any, args: tuple[Any, ...]) -> None:
-        """Let all but the attributes that the kernel took itself follow its notes."""
+        """Let all but the attributes that the kernel took itself follow its notes.
+
+        Where a function of the user's raises, its attribute is left and the others follow.
+        """
+        failed = None
         rows = self._keeper.rows_of(notes) if self._keeper is not None and self._columns else None
         for column in self._columns.values():
             if not any(column is a for a in args):
                 if self._keeper is not None and rows is not None:
                     self._keeper.keep_rows(column, rows)
-                replay(self._in_use(column), column.policy, kind, notes, weights)
+                try:
+                    replay(self._in_use(column), column.policy, kind, notes, weights)
+                except Exception as error:
+                    failed = failed or error
+        if failed is not None:
+            raise failed
 
     def _permute(self, new_of_old: NDArray[np.int32]) -> None:
         """Keep the rows of the living, after compaction."""

@@ -35,10 +35,11 @@ from halfmesh.errors import InvalidMeshError, PreconditionError
 from halfmesh.mesh.attributes import AttributeTable, Column
 from halfmesh.mesh.collections import Collection
 from halfmesh.mesh.editing import Editable
+from halfmesh.mesh.editing.base import TABLES
 from halfmesh.mesh.elements import Edge, Face, Halfedge, Vertex, made
 from halfmesh.mesh.positions import as_points
 from halfmesh.mesh.summary import Summary, summarize
-from halfmesh.mesh.transactions import TABLES, Undoable
+from halfmesh.mesh.transactions import Undoable
 
 __all__ = ["Mesh"]
 
@@ -316,14 +317,20 @@ class Mesh(Editable, Undoable):
     def _follow(self, args: tuple[Any, ...] = ()) -> None:
         """After a kernel: let those attributes follow its notes."""
         t = self._topology.__arrays__()
+        failed = None
         if t.counts[NEWS] & HAS_NOTES:
             size = t.counts[NOTES_SIZE]
-            for place, name in enumerate(TABLES):
-                getattr(self, name)._replay(1 << place, t.notes[:size], t.weights[:size], args)
-            t.counts[NOTES_SIZE] = 0
+            t.counts[NOTES_SIZE] = 0  # whatever comes: no note is to be followed twice
             t.counts[NEWS] &= ~HAS_NOTES
+            for place, name in enumerate(TABLES):
+                try:
+                    getattr(self, name)._replay(1 << place, t.notes[:size], t.weights[:size], args)
+                except Exception as error:
+                    failed = failed or error
         if any(isinstance(a, Column) for a in args):
             t.counts[NOTING] = sum(1 << place for place, name in enumerate(TABLES) if len(getattr(self, name)))
+        if failed is not None:
+            raise failed
 
     def __views__(self) -> Any:
         return self._t

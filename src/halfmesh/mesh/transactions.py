@@ -34,9 +34,8 @@ if TYPE_CHECKING:
     from halfmesh.mesh.attributes import AttributeTable
     from halfmesh.mesh.mesh import Mesh
 
-__all__ = ["TABLES", "Transaction", "Undoable"]
+__all__ = ["Transaction", "Undoable"]
 
-TABLES = ("vertex_data", "halfedge_data", "edge_data", "face_data")
 _OF_TABLES = ((VERTEX_SLOTS, 1), (EDGE_SLOTS, 2), (EDGE_SLOTS, 1), (FACE_SLOTS, 1))  # rows of each: slots, times
 
 

@@ -20,10 +20,11 @@ if TYPE_CHECKING:
 
     from halfmesh.mesh.attributes import AttributeTable
 
-__all__ = ["Base", "as_fraction", "as_point", "as_xyz"]
+__all__ = ["TABLES", "Base", "as_fraction", "as_point", "as_xyz"]
 
 E = TypeVar("E", bound=Element)
 
+TABLES = ("vertex_data", "halfedge_data", "edge_data", "face_data")
 _ABOUT_AS_LONG_AS = 12  # elements: what an operator costs when it is interpreted, counted in steps of a loop
 
 

@@ -17,7 +17,7 @@ from halfmesh.core.operators.wholes import (
 )
 from halfmesh.core.topology import DELETED, Topology
 from halfmesh.errors import ElementError, StaleElementError
-from halfmesh.mesh.editing.base import Base
+from halfmesh.mesh.editing.base import TABLES, Base
 from halfmesh.mesh.elements import Element, Face, Vertex
 
 if TYPE_CHECKING:
@@ -28,8 +28,6 @@ if TYPE_CHECKING:
     from halfmesh.mesh.mesh import Mesh
 
 __all__ = ["Wholes"]
-
-_TABLES = ("vertex_data", "halfedge_data", "edge_data", "face_data")
 
 
 class Wholes(Base):
@@ -153,7 +151,7 @@ class Wholes(Base):
         """
         if not isinstance(other, Wholes):
             raise TypeError(f"append takes a mesh, not {type(other).__name__}")
-        tables = [(getattr(self, name), getattr(other, name)) for name in _TABLES]
+        tables = [(getattr(self, name), getattr(other, name)) for name in TABLES]
         for mine, others in tables:
             mine._check_fits(others)
         theirs, firsts = _living(other._topology), _sizes(self._topology)
@@ -224,7 +222,7 @@ class Wholes(Base):
         made._hold(topology)
         made.has_points, made.build_seconds, made.meta = self.has_points, 0.0, deepcopy(self._meta)
         of_kinds = (maps.vertices, maps.halfedges, maps.edges, maps.faces)
-        for name, new_of_old in zip(_TABLES, of_kinds, strict=True):
+        for name, new_of_old in zip(TABLES, of_kinds, strict=True):
             getattr(made, name)._adopt(getattr(self, name)._columns_of(np.flatnonzero(new_of_old >= 0)))
         return made, maps
 
