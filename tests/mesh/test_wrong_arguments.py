@@ -80,6 +80,38 @@ def test_places_on_an_edge_are_single_numbers():
         hm.shapes.cube().split_edge(0, at=np.array([0.2, 0.5]))
 
 
+@pytest.mark.parametrize(
+    "point",
+    [
+        "abc",
+        ["1", "2", "3"],
+        [True, False, True],
+        [1j, 0, 0],
+        [None, 0, 0],
+        [2**70, 0, 0],
+        [[1, 2, 3]],
+        [[1], [2, 3]],
+        5.0,
+        [math.inf, 0, 0],
+        [0.0, 0.0, math.nan],
+        np.ma.array([1.0, 2.0, 3.0], mask=[0, 1, 0]),
+        {1, 2, 3},
+    ],
+    ids=repr,
+)
+def test_points_are_two_or_three_finite_real_numbers(point):
+    mesh = hm.shapes.cube()
+    for change in (
+        lambda: mesh.add_vertex(point),
+        lambda: mesh.split_edge(0, point),
+        lambda: mesh.split_face(0, point),
+        lambda: mesh.join_vertices(0, point),
+    ):
+        with pytest.raises(hm.InvalidMeshError):
+            change()
+    assert (mesh.n_vertices, mesh.n_edges) == (8, 12)
+
+
 @pytest.mark.parametrize("n", [2.5, math.nan, math.inf, "3"])
 def test_numbers_of_pairs_to_zip_are_whole(n):
     with pytest.raises(TypeError):

@@ -193,9 +193,12 @@ def as_xyz(point: ArrayLike) -> tuple[float, float, float]:
 def as_point(point: ArrayLike) -> NDArray[np.float64]:
     """Three finite numbers, or two with z = 0."""
     try:
-        array = np.asarray(point, dtype=np.float64)
-    except (TypeError, ValueError) as error:
+        given = np.asarray(point)
+    except ValueError as error:
         raise InvalidMeshError(f"{point!r} is no point: {error}", reason="bad_points") from None
+    if given.dtype.kind not in "iuf" or isinstance(point, np.ma.MaskedArray):
+        raise InvalidMeshError(f"{point!r} is no point: it takes real numbers", reason="bad_points")
+    array = given.astype(np.float64)
     if array.shape not in ((2,), (3,)):
         raise InvalidMeshError(f"a point has 2 or 3 coordinates; got shape {array.shape}", reason="bad_points")
     if not np.isfinite(array).all():
