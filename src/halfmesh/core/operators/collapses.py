@@ -62,7 +62,8 @@ def collapse_status(t: Any, h: int) -> int:
     x = ccw_of(t, h)
     while x != h:
         apex = (left and x == p_out) or (right and x == next_of(t, o))
-        if not apex and (target_of(t, x) == b or is_joined(t, x ^ 1, b)):
+        c = target_of(t, x)
+        if not apex and c != a and (c == b or is_joined(t, x ^ 1, b)):  # a loop edge at the origin stays a loop
             return WOULD_BE_PARALLEL
         f = face_of(t, x)
         if f >= 0 and f != face_of(t, h) and f != face_of(t, o) and _has_corner(t, x, b):

@@ -244,10 +244,10 @@ def _end_status(t: Any, a: int, b: int, allow_parallel: bool) -> int:
     if is_joined(t, a, w):
         return WOULD_BE_LOOP
     q, r = target_of(t, a), origin_of(t, b)  # will be one as well, joined to u by the edges of a and b
-    if q != r:
-        crossed = _joins(t, g, q, b >> 1) or _joins(t, a, r, a >> 1)
-        if crossed or (_joins(t, a, q, a >> 1) and _joins(t, g, r, b >> 1)):
-            return WOULD_BE_PARALLEL
+    if q != r and (_joins(t, g, q, b >> 1) or _joins(t, a, r, a >> 1)):
+        return WOULD_BE_PARALLEL
+    if _joins(t, a, q, a >> 1) and _joins(t, g, r, b >> 1):
+        return WOULD_BE_PARALLEL
     p = prev_of(t, a)
     closing = next_of(t, g) == p  # the edges of g and p will bound a hole of two sides, to be closed next
     x = g
