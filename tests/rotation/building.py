@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from itertools import pairwise
 
-from .edges import insert_edge
 from .rings import OUTSIDE, true
 
 
@@ -47,13 +46,27 @@ def why_not_add_edge(m, u, v):
 
 
 def add_edge(m, u, v):
-    """The edge goes into the corner of the exterior dart that the library shows for each end."""
-    if m.ring[u] and m.ring[v]:
-        return insert_edge(m, m.shown_at[u], m.shown_at[v])
+    return add_edge_in(m, u, -1, v, -1)
+
+
+def why_not_add_edge_in(m, u, gap_u, v, gap_v):
+    reasons = set()
+    for end, gap in ((u, gap_u), (v, gap_v)):
+        if end not in m.ring or (gap >= 0 and gap not in m.origin):
+            continue  # which is a reason by itself
+        if gap < 0:
+            reasons |= true(closed_vertex=m.is_closed(end))
+        else:
+            reasons |= true(not_exterior=not m.is_outside(gap), different_vertices=m.origin[gap] != end)
+    return reasons
+
+
+def add_edge_in(m, u, gap_u, v, gap_v):
+    """Each end goes into the corner of its gap, of the one that is shown where none is said."""
     h = m.new_edge(u, v)
-    for end, x in ((u, h), (v, h + 1)):
-        if m.ring[end] and u != v:
-            m.put_after(m.shown_at[end], x)
+    for end, gap, x in ((u, gap_u, h), (v, gap_v, h + 1)):
+        if gap >= 0 or m.shown_at[end] >= 0:
+            m.put_after(gap if gap >= 0 else m.shown_at[end], x)
         else:
             m.ring[end].append(x)
     return h

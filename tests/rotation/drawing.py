@@ -88,6 +88,10 @@ def beside_small_holes(m, before, stream):
     return {h for h in exterior(m, before, stream) if len(m.loop(h)) == 2}
 
 
+def gap_or_none(m, before, stream):
+    return {-1, *m.gaps(before)} if before in m.ring else {-1}
+
+
 def in_the_loop(m, before, stream):
     return set(m.loop(before)) if before in m.origin else set()
 
@@ -176,6 +180,7 @@ DRAWN = {
     "h": halfedges,
     "e": edges,
     "f": faces,
+    "p": gap_or_none,
     "x": exterior,
     "i": exterior,
     "t": between_faces,
@@ -203,13 +208,23 @@ DRAWN = {
 def missing_or_deleted(m, operator, args):
     """What speaks against the elements themselves: whatever is named must be there and alive."""
     reasons = set()
-    kinds = {"v": (VERTICES, 1), "V": (VERTICES, 1), "h": (EDGES, 2), "H": (EDGES, 2), "e": (EDGES, 1), "f": (FACES, 1)}
+    kinds = {
+        "v": (VERTICES, 1),
+        "V": (VERTICES, 1),
+        "h": (EDGES, 2),
+        "H": (EDGES, 2),
+        "G": (EDGES, 2),
+        "e": (EDGES, 1),
+        "f": (FACES, 1),
+    }
     for letter, arg in zip(operator.takes, args, strict=True):
         if letter in kinds:
             place, times = kinds[letter]
-            living = {"v": m.ring, "V": m.ring, "h": m.origin, "H": m.origin, "f": m.faces()}.get(letter)
+            living = {"v": m.ring, "V": m.ring, "h": m.origin, "H": m.origin, "G": m.origin, "f": m.faces()}.get(letter)
             living = {h >> 1 for h in m.origin} if living is None else living
             for x in arg if isinstance(arg, list) else [arg]:
+                if letter == "G" and x < 0:
+                    continue
                 if not 0 <= x < times * m.slots[place]:
                     reasons.add("missing_element")
                 elif x not in living:

@@ -48,6 +48,7 @@ def flip(m, e, allow_parallel):
     m.put_before(on ^ 1, h)
     m.put_before(n ^ 1, o)
     m.face[on], m.face[n] = f, g
+    m.show_again(f, g)
     return 0
 
 
@@ -138,7 +139,7 @@ def join_faces(m, h):
     for x in m.loop(h ^ 1):
         m.face[x] = f
     m.forget_edge(h)
-    m.shown_in[f] = next(x for x, label in m.face.items() if label == f)
+    m.show_again(f)
     return f
 
 
@@ -172,7 +173,10 @@ def why_not_collapse(m, h, weight):
         would_close_hole=any(len(hole) == 3 and len({x >> 1 for x in hole}) == 3 for hole in holes),
         would_pinch=bool(m.gaps(a)) and bool(m.gaps(b)) and OUTSIDE not in are_beside(m, h),
         would_pinch_face=would_pinch_a_face(m, h),
-        would_fold=shared or would_fold(m, h),  # the two triangles beside the edge, or two behind one of them
+        would_fold=shared
+        or (
+            would_fold(m, h) and not is_apex_the_target(m, h)
+        ),  # the two triangles beside the edge, or two behind one of them
     )
 
 
@@ -189,8 +193,6 @@ def what_edges_would_become(m, h):
     others = [(x, y) for x, y in product(moved, m.ring[b]) if y >> 1 not in gone and m.target(y) not in (a, b)]
     loops = any(m.target(x) == b for x in moved)
     parallel = loops or any(m.target(x) == m.target(y) for x, y in others)
-    if "loop edge at the origin of a collapse" in KNOWN:
-        parallel = parallel or a in m.neighbors(a)
     return true(would_be_loop=loops, would_be_parallel=parallel)
 
 
@@ -213,11 +215,14 @@ def would_pinch_a_face(m, h):
     """Whether a face that stays comes to pass a vertex more often."""
     before, after = united(m, h)
     gone = {m.face[x] for x in triangles_beside(m, h)}
-    if "apex of a collapse is its target" in KNOWN and m.target(h) in (
-        m.target(m.next(x)) for x in triangles_beside(m, h)
-    ):
+    if is_apex_the_target(m, h):
         gone |= {f for f in m.faces() if len(m.corners(f)) == 3}
     return any(repeats(after[f]) > repeats(before[f]) for f in before if f not in gone)
+
+
+def is_apex_the_target(m, h):
+    known = "apex of a collapse is its target" in KNOWN
+    return known and m.target(h) in {m.target(m.next(x)) for x in triangles_beside(m, h)}
 
 
 def would_fold(m, h):

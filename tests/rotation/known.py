@@ -4,7 +4,7 @@
 """
 
 KNOWN = {
-    "stitch at a shared end",  # edges beside both become parallel unnoticed
-    "loop edge at the origin of a collapse",  # is taken for a parallel edge
+    "what a stitch would close next",  # is a reason, where it is parallel to both sides
+    "glue what is gone",  # both sides of one edge, of which the first stitch takes the other away
     "apex of a collapse is its target",  # a triangle comes to pass a vertex twice unnoticed
 }

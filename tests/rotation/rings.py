@@ -161,6 +161,12 @@ class Rotation:
         for h in [h for h, label in self.face.items() if label == f]:
             self.face[h] = OUTSIDE
 
+    def show_again(self, *faces):
+        """Show another dart for a face that has lost the one it was shown by."""
+        for f in faces:
+            if f != OUTSIDE and self.face.get(self.shown_in[f]) != f:
+                self.shown_in[f] = next(h for h, label in self.face.items() if label == f)
+
     def put_after(self, h, x):
         """Put the dart `x` into the corner of `h`, which lies between it and the next counter-clockwise."""
         ring = self.ring[self.origin[h]]

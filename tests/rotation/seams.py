@@ -89,14 +89,18 @@ def what_edges_would_become(m, a, b):
         before[h >> 1] = [{m.origin[h], m.target(h)}]
         after[h >> 1] = {united.get(v, v) for v in (m.origin[h], m.target(h))}
     before[a >> 1].append({m.origin[b], m.target(b)})
-    if "stitch at a shared end" in KNOWN and {m.origin[a], m.target(a)} & {m.origin[b], m.target(b)}:
+    if "what a stitch would close next" in KNOWN:
         one, other = before[a >> 1]
-        closing += [{x, y} for x, y in combinations(before, 2) if (one in before[x] and other in before[y])]
-        closing += [{x, y} for x, y in combinations(before, 2) if (one in before[y] and other in before[x])]
+        closing = [
+            pair for pair in closing if sorted(map(str, (one, other))) != sorted(str(before[e][0]) for e in pair)
+        ]
     return true(
         would_be_loop=any(len(after[e]) == 1 for e in before if len(before[e][0]) == 2),
         would_be_parallel=any(
-            after[x] == after[y] and not any(ends in before[y] for ends in before[x]) and {x, y} not in closing
+            len(after[x]) == 2
+            and after[x] == after[y]
+            and not any(ends in before[y] for ends in before[x])
+            and {x, y} not in closing
             for x, y in combinations(before, 2)
         ),
     )

@@ -41,7 +41,7 @@ class Operator(NamedTuple):
     """``takes`` has a letter for each argument.
 
     ``v h e f`` an element, ``H V`` lists of halfedges and vertices, ``?`` a flag, ``w`` a weight, ``n`` a number, ``m``
-    another mesh, by its name among the starts.
+    another mesh, by its name among the starts, ``G`` a halfedge or -1.
     ``promises(m, *args)``, asked before, gives the changes of V, E, F, components and boundary loops; None: not fixed.
     ``ways`` say how arguments are drawn so that the operator has a chance, see `drawing`.
     """
@@ -164,6 +164,10 @@ OPERATORS = [
     Operator("add_vertex", "", "", always, building.add_vertex, fixed(1, 0, 0, 1, 0)),
     Operator("add_vertices", "n", "N", always, building.add_vertices, add_vertices),
     Operator("add_edge", "vv", "vv gg", building.why_not_add_edge, building.add_edge, add_edge),
+    Operator(
+        "add_edge_in", "vGvG", "gpgp", building.why_not_add_edge_in, building.add_edge_in,
+        lambda m, u, a, v, b: add_edge(m, u, v),
+    ),
     Operator(
         "make_adjacent", "hh", "ia hh", building.why_not_make_adjacent, building.make_adjacent,
         fixed(0, 0, 0, None, None),

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from .edges import are_beside, contract, join_faces, why_not_join_faces
-from .rings import OUTSIDE, true
+from .rings import true
 
 # -- split and join --------------------------------------------------------------------------------------------------
 
@@ -42,15 +42,8 @@ def union(m, a, b, without=frozenset()):
 def join_vertices(m, h, weight, allow_parallel):
     f, g = are_beside(m, h)
     b = contract(m, h)
-    show_again(m, f, g)
+    m.show_again(f, g)
     return b
-
-
-def show_again(m, *faces):
-    """Show another dart for a face that has lost the one it was shown by."""
-    for f in faces:
-        if f != OUTSIDE and m.face.get(m.side(f)) != f:
-            m.shown_in[f] = next(x for x, label in m.face.items() if label == f)
 
 
 # -- weld ------------------------------------------------------------------------------------------------------------
@@ -171,7 +164,7 @@ def unite_around(m, v, f, keep):
     for h in list(m.ring[v]):
         if h not in keep:
             m.forget_edge(h)
-    show_again(m, f)
+    m.show_again(f)
 
 
 def why_not_dissolve_edge(m, h):

@@ -26,7 +26,7 @@ class Walk:
     A step is the name of an operator, or of a method below, and its arguments: plain ints, lists and names.
     """
 
-    def __init__(self, mesh, gear="call"):
+    def __init__(self, mesh, gear="interpreted"):
         self.mesh, self.gear = mesh, gear
         self.done, self.refused, self.reasons = Counter(), Counter(), Counter()
         carry_attributes(mesh)
@@ -83,7 +83,7 @@ class Walk:
         return answer
 
     def run(self, kernel, args):
-        run = kernel.interpreted if self.gear == "interpreted" else kernel
+        run = getattr(kernel, "interpreted", kernel) if self.gear == "interpreted" else kernel
         return int(run(self.mesh, *(self.argument(arg) for arg in args)))
 
     def argument(self, arg):
@@ -198,7 +198,9 @@ def why_not(m, operator, args):
         corners = args[0] if operator.takes == "V" else args
         repeated = any(u == v for u, v in zip(corners, [*corners[1:], *corners[:1]], strict=True))
         return reasons | true(few_vertices=len(corners) < 3, repeated_vertex=repeated)
-    return reasons or operator.why_not(m, *args)
+    if reasons and operator.takes != "vGvG":
+        return reasons
+    return reasons | operator.why_not(m, *args)
 
 
 def promise(m, operator, args):
