@@ -11,7 +11,7 @@ from halfmesh.core.statuses import DELETED_ELEMENT, MISSING_ELEMENT, REASONS
 from halfmesh.core.topology import NEWS
 from halfmesh.errors import ElementError, InvalidMeshError, StaleElementError, TopologyError
 from halfmesh.mesh.counts import Counted
-from halfmesh.mesh.elements import Edge, Element, Halfedge, Vertex, made
+from halfmesh.mesh.elements import Edge, Element, Halfedge, Vertex
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -24,6 +24,7 @@ __all__ = ["Base", "as_fraction", "as_point", "as_xyz"]
 
 E = TypeVar("E", bound=Element)
 
+_new: Any = object.__new__
 _ABOUT_AS_LONG_AS = 12  # elements: what an operator costs when it is interpreted, counted in steps of a loop
 
 
@@ -34,6 +35,7 @@ class Base(Counted):
     halfedge_data: AttributeTable
     edge_data: AttributeTable
     face_data: AttributeTable
+    _savepoints: list[Any]
 
     def _index(self, kind: type[Element], element: Any) -> int:
         """The index of a handle or an int. Whether there is such an element, alive, the kernel asks."""
@@ -88,6 +90,48 @@ class Base(Counted):
             self._catch_up()
         return result
 
+    def _act_at(
+        self,
+        operation: Operation[Any, Any],
+        placing: Operation[Any, Any],
+        element: int,
+        weight: float | None,
+        point: ArrayLike | None,
+    ) -> int:
+        """Run an operator that makes or moves a vertex, with the points in the same call where that is possible."""
+        columns = self.vertex_data._columns
+        column, carrier = columns["points"], self._topology.lowered
+        if operation.quick is None or carrier is None or self._savepoints or column.policy != "lerp":
+            return self._act_and_place(operation, (element,) if weight is None else (element, weight), point)
+        x, y, z = (0.0, 0.0, 0.0) if point is None else as_xyz(point)
+        quick = placing.quick or placing.compiled
+        is_only = len(columns) == 1
+        v: int = quick(
+            carrier,
+            column.lowered or column.__compiled__(),
+            is_only,
+            point is not None,
+            x,
+            y,
+            z,
+            element,
+            weight or 0.0,
+        )
+        if quick is not placing.quick:
+            placing.quick = placing.entry(carrier, column.lowered, True, True, x, y, z, element, 0.0)
+        if self._t.counts[NEWS]:
+            column.catch_up()
+            self._topology.catch_up(compiled=True)
+            self._follow((column,))
+        return v
+
+    def _act_and_place(self, operation: Operation[Any, Any], args: tuple[Any, ...], point: ArrayLike | None) -> int:
+        place = None if point is None else as_point(point)
+        v = self._act(operation, *args)
+        if place is not None and v >= 0:
+            self.vertex_data.row("points", v)[:] = place
+        return v
+
     def _act_slowly(self, operation: Operation[Any, Any], args: tuple[Any, ...]) -> int:
         run: Any = operation.at(_ABOUT_AS_LONG_AS)
         result: int = run(self, *args)
@@ -101,7 +145,10 @@ class Base(Counted):
         self._follow()
 
     def _made(self, kind: type[E], index: int) -> E:
-        return made(kind, self._t, index)
+        handle: E = _new(kind)  # as `made`, whose call costs as much again
+        handle._t = self._t
+        handle.index = index
+        return handle
 
     def _placed(self, v: int, place: NDArray[np.float64] | None) -> Vertex:
         """The vertex, put there."""
