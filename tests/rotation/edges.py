@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from itertools import combinations, product
 
-from .known import KNOWN
 from .rings import OUTSIDE, true
 
 
@@ -215,14 +214,7 @@ def would_pinch_a_face(m, h):
     """Whether a face that stays comes to pass a vertex more often."""
     before, after = united(m, h)
     gone = {m.face[x] for x in triangles_beside(m, h)}
-    if is_apex_the_target(m, h):
-        gone |= {f for f in m.faces() if len(m.corners(f)) == 3}
     return any(repeats(after[f]) > repeats(before[f]) for f in before if f not in gone)
-
-
-def is_apex_the_target(m, h):
-    known = "apex of a collapse is its target" in KNOWN
-    return known and m.target(h) in {m.target(m.next(x)) for x in triangles_beside(m, h)}
 
 
 def would_fold(m, h):

@@ -4,7 +4,5 @@
 """
 
 KNOWN = {
-    "what a stitch would close next",  # is a reason, where it is parallel to both sides
     "glue what is gone",  # both sides of one edge, of which the first stitch takes the other away
-    "apex of a collapse is its target",  # a triangle comes to pass a vertex twice unnoticed
 }

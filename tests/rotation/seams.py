@@ -5,7 +5,6 @@ from __future__ import annotations
 from itertools import combinations
 
 from .building import make_adjacent, why_not_make_adjacent
-from .known import KNOWN
 from .rings import OUTSIDE, true
 from .vertices import unweld, weld
 
@@ -89,11 +88,6 @@ def what_edges_would_become(m, a, b):
         before[h >> 1] = [{m.origin[h], m.target(h)}]
         after[h >> 1] = {united.get(v, v) for v in (m.origin[h], m.target(h))}
     before[a >> 1].append({m.origin[b], m.target(b)})
-    if "what a stitch would close next" in KNOWN:
-        one, other = before[a >> 1]
-        closing = [
-            pair for pair in closing if sorted(map(str, (one, other))) != sorted(str(before[e][0]) for e in pair)
-        ]
     return true(
         would_be_loop=any(len(after[e]) == 1 for e in before if len(before[e][0]) == 2),
         would_be_parallel=any(
