@@ -172,10 +172,7 @@ def why_not_collapse(m, h, weight):
         would_close_hole=any(len(hole) == 3 and len({x >> 1 for x in hole}) == 3 for hole in holes),
         would_pinch=bool(m.gaps(a)) and bool(m.gaps(b)) and OUTSIDE not in are_beside(m, h),
         would_pinch_face=would_pinch_a_face(m, h),
-        would_fold=shared
-        or (
-            would_fold(m, h) and not is_apex_the_target(m, h)
-        ),  # the two triangles beside the edge, or two behind one of them
+        would_fold=shared or would_fold(m, h),  # the triangles beside the edge, or two behind one of them
     )
 
 
