@@ -296,6 +296,35 @@ def test_kernel_takes_attribute_columns_by_their_values():
     assert mesh.vertex_data["x"].tolist() == [0, 10, 20]
 
 
+@compiled_only
+def test_attributes_follow_again_after_a_kernel_that_failed():
+    @kernel
+    def wrong(t, points):
+        points[0, 0] = "x"
+
+    mesh = hm.shapes.cube()
+    with pytest.raises(Exception, match="wrong"):
+        wrong(mesh, mesh.vertex_data.column("points"))
+    assert mesh.split_face(0).point.tolist() == [0.5, 0.5, 0.0]
+
+
+@compiled_only
+def test_kernel_can_not_return_what_it_borrows():
+    @kernel
+    def itself(t):
+        return t
+
+    @kernel
+    def within(t, column):
+        return 1, column
+
+    mesh = hm.shapes.cube()
+    with pytest.raises(TypeError, match="can't return a Topology"):
+        itself(mesh)
+    with pytest.raises(TypeError, match="can't return a Column"):
+        within(mesh, mesh.vertex_data.column("points"))
+
+
 def test_kernel_calls_itself():
     @kernel
     def factorial(n):

@@ -342,6 +342,20 @@ def test_sums_are_shared_so_that_the_total_stays():
     assert np.isclose(mesh.face_data["mass"][mesh.faces.indices].sum(), 6.0)
 
 
+@pytest.mark.parametrize("value", [0, 1, 2, 5, 7])
+def test_sums_of_whole_numbers_are_shared_to_the_last(value):
+    mesh = hm.shapes.cube()
+    tables = (mesh.vertex_data, mesh.edge_data, mesh.face_data)
+    for table in tables:
+        table.add("count", np.uint8, policy="sum")[:] = value
+    mesh.split_face(0)
+    mesh.split_edge(0, at=0.3)
+    mesh.connect(mesh.faces[1].halfedge, mesh.faces[1].halfedge.next.next)
+    a, b, *_ = mesh.vertices[2].outgoing()
+    mesh.split_vertex(a, b)
+    assert [int(table["count"].sum()) for table in tables] == [8 * value, 12 * value, 6 * value]
+
+
 def test_labels_of_faces_are_copied():
     mesh = hm.shapes.cube()
     mesh.face_data["label"] = np.arange(6)

@@ -381,3 +381,39 @@ def test_values_follow_a_cut_and_a_stitch():
     mesh.stitch(h.twin, moved.twin)
     assert mesh.halfedge_data["uv"][h.twin.index] == before[corner]
     assert mesh.vertex_data["label"][mesh.vertices.indices].tolist()[:3] == [0, 1, 2]
+
+
+def test_sums_of_an_edge_are_shared_when_it_is_opened_and_united_when_it_is_closed():
+    mesh = hm.shapes.grid(3, 3)
+    length = mesh.edge_data.add("length", float, policy="sum")
+    length[:] = 1.0
+    mesh.edge_data["label"] = np.arange(len(length))
+    h = mesh.find_halfedge(4, 5)
+    new = mesh.open_edge(h)
+    assert mesh.edge_data["length"][[h.edge.index, new.index]].tolist() == [0.5, 0.5]
+    assert mesh.edge_data["label"][new.index] == h.edge.index
+    mesh.close_edge(h.twin)
+    assert mesh.edge_data["length"][mesh.edges.indices].tolist() == [1.0] * len(length)
+
+
+@pytest.mark.parametrize("allow_parallel", [False, True])
+@each_of_the_zoo
+def test_asking_for_a_weld_of_vertices_tells_what_comes(name, allow_parallel):
+    model = ZOO[name].mesh()
+    vertices = some(model.vertices, 6)
+    for u, v in itertools.product(vertices, vertices):
+        mesh = model.copy()
+        answer = mesh.can_weld(u, v, allow_parallel=allow_parallel)
+        assert answer == mesh.can_weld(mesh.vertices[u], v, allow_parallel=allow_parallel)
+        try:
+            mesh.weld(u, v, allow_parallel=allow_parallel)
+        except hm.TopologyError:
+            assert not answer
+        else:
+            assert answer
+
+
+def test_welded_vertices_meet_in_the_middle():
+    mesh = hm.Mesh([[0, 1, 2], [3, 4, 5]], np.arange(12.0).reshape(6, 2))
+    assert mesh.weld(2, 3).point.tolist() == [5, 6, 0]
+    assert mesh.weld(0, 4, [1, 2, 3], allow_parallel=True).point.tolist() == [1, 2, 3]

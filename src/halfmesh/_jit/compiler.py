@@ -389,8 +389,13 @@ def _define_boxing(carrier: Any, proxy: Any) -> None:
     def type_of_proxy(value: Any, context: Any) -> Any:
         return value._numba_type_
 
+    name = proxy.__name__.removesuffix("Proxy")
+    maker = f"make_{name}"
+
     @box(carrier)
     def box_carrier(kind: Any, value: Any, c: Any) -> Any:
+        if maker not in c.builder.function.name:  # it would be freed twice: see docs/decisions/0010
+            raise TypeError(f"a kernel can't return a {name}: it only borrows what it was called with")
         meminfo = cgutils.create_struct_proxy(kind)(c.context, c.builder, value=value).meminfo
         arguments = [
             c.pyapi.long_from_ulonglong(c.builder.ptrtoint(meminfo, c.pyapi.ulonglong)),

@@ -62,12 +62,12 @@ class Kernel(Compilable, Generic[P, R]):
     def _run(self, compiled: Any, args: tuple[Any, ...]) -> R:
         announce(args)
         try:
-            result: R = compiled(*[lowered(a) for a in args])
+            return compiled(*[lowered(a) for a in args])  # type: ignore[no-any-return]
         except Exception as error:
             self._explain(error)
             raise
-        refresh(args, compiled=True)
-        return result
+        finally:  # a kernel that failed may have run half, and what was announced is over
+            refresh(args, compiled=True)
 
     def _explain(self, error: Exception) -> None:
         """Say at the end of what Python or Numba reports which kernel it was, and what usually helps."""

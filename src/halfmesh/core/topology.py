@@ -257,7 +257,7 @@ class Topology:
             mesh._announce(args)
 
     def __refresh__(self, args: tuple[Any, ...], compiled: bool) -> None:
-        if self._slots(NEWS):
+        if self._slots(NEWS) and (self.lowered is not None or not compiled):
             self.catch_up(compiled)
         mesh = self.owner and self.owner()
         if mesh is not None:

@@ -87,7 +87,7 @@ class Column:
         self.__refresh__((), compiled=True)
 
     def __refresh__(self, args: tuple[Any, ...], compiled: bool) -> None:
-        if compiled:
+        if compiled and self.lowered is not None:
             values = _CARRIER.take(self.lowered)[0]
             if values.ctypes.data != self.values.ctypes.data:
                 self.values = values

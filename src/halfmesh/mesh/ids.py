@@ -8,6 +8,7 @@ halfedges theirs, ``2 * id`` and ``2 * id + 1``.
 
 from __future__ import annotations
 
+from operator import index
 from typing import TYPE_CHECKING, TypeVar
 
 import numpy as np
@@ -146,7 +147,9 @@ class Ids:
         Raises
         ------
         StaleElementError, ElementError
-            It was deleted, or is of another mesh, or no handle.
+            It was deleted, or is of another mesh.
+        TypeError
+            It is no handle.
         """
         if not isinstance(element, Element):
             raise TypeError(
@@ -163,7 +166,7 @@ class Ids:
 
     def find_halfedge(self, id: int) -> Halfedge | None:
         """The halfedge of this id, or None if it was deleted or never was. O(log n)."""
-        e = self._index(self.edges, id >> 1)
+        e = self._index(self.edges, index(id) >> 1)
         return self._living(Halfedge, -1 if e < 0 else 2 * e + (id & 1))
 
     def find_edge(self, id: int) -> Edge | None:
@@ -180,8 +183,8 @@ class Ids:
 
     @staticmethod
     def _index(ids: Numbering, id: int) -> int:
-        index = int(np.searchsorted(ids, id))
-        return index if index < len(ids) and ids[index] == id else -1
+        place = int(np.searchsorted(ids, index(id)))
+        return place if place < len(ids) and ids[place] == id else -1
 
     def _living(self, kind: type[E], index: int) -> E | None:
         if index < 0:

@@ -98,7 +98,8 @@ def replay(
 @kernel
 def replay_notes(values: Any, notes: Any, weights: Any, size: int, kind: int, policy: int, rounds: bool) -> None:
     """Let rows of values follow the notes about elements of a kind, by one of the policies that are formulas."""
-    place = 0
+    place = parts = 0  # where the parts of one whole begin
+    whole = -1
     while place < size:
         relation, element, n = notes[place], notes[place + 2], notes[place + 3]
         if notes[place + 1] == kind:
@@ -108,7 +109,11 @@ def replay_notes(values: Any, notes: Any, weights: Any, size: int, kind: int, po
             elif relation == CYCLE:
                 _exchange(values, element, notes, first, n)
             elif relation == PART:
-                if policy == SUM:
+                if notes[first] != whole:
+                    whole, parts = notes[first], place
+                if policy == SUM and rounds and element == whole:
+                    _keep_rest(values, element, notes, parts, place)
+                elif policy == SUM:
                     _share(values, element, notes[first], weights[first], rounds)
                 elif element != notes[first]:
                     _take(values, element, notes[first])
@@ -122,6 +127,8 @@ def replay_notes(values: Any, notes: Any, weights: Any, size: int, kind: int, po
                     values[element, j] = 0
             else:
                 _combine(values, element, notes, weights, first, n, policy, rounds)
+        if notes[place + 1] != kind or relation != PART or element == whole:
+            whole = -1
         place += 4 + n
 
 
@@ -154,7 +161,15 @@ def _is_same(values: Any, a: int, b: int) -> bool:
 def _share(values: Any, element: int, whole: int, weight: float, rounds: bool) -> None:
     for j in range(values.shape[1]):
         x = values[whole, j] * weight
-        values[element, j] = math.floor(x + 0.5) if rounds else x
+        values[element, j] = math.floor(x) if rounds else x
+
+
+@kernel
+def _keep_rest(values: Any, whole: int, notes: Any, begin: int, end: int) -> None:
+    """What the other parts have left of it, which were noted one after the other: whole numbers add up, too."""
+    for place in range(begin, end, 5):
+        for j in range(values.shape[1]):
+            values[whole, j] -= values[notes[place + 2], j]
 
 
 @kernel

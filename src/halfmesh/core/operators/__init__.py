@@ -118,6 +118,7 @@ from halfmesh.core.operators.welds import (
     unweld_status,
     weld,
     weld_status,
+    weld_vertices_status,
 )
 from halfmesh.core.operators.wholes import (
     append,
@@ -231,5 +232,6 @@ __all__ = [
     "unweld_status",
     "weld",
     "weld_status",
+    "weld_vertices_status",
     "zip_hole",
 ]

@@ -17,7 +17,7 @@ from halfmesh.core.navigation import (
     prev_of,
     target_of,
 )
-from halfmesh.core.notes import CORNERS, EDGES, note_copy
+from halfmesh.core.notes import CORNERS, EDGES, note_copy, note_part
 from halfmesh.core.operators.asking import both_status, halfedge_status, is_joined
 from halfmesh.core.operators.building import make_adjacent, make_adjacent_status
 from halfmesh.core.operators.gaps import close_between, next_gap, show_gap
@@ -96,7 +96,8 @@ def open_edge(t: Any, h: int) -> int:
         set_halfedge_of_vertex(t, a, y ^ 1)
     if not is_exterior(t, halfedge_of_vertex(t, b)):
         set_halfedge_of_vertex(t, b, o)
-    note_copy(t, EDGES, y >> 1, h >> 1)
+    note_part(t, EDGES, y >> 1, h >> 1, 0.5)
+    note_part(t, EDGES, h >> 1, h >> 1, 0.5)
     note_copy(t, CORNERS, y, o)
     changed(t)
     return y

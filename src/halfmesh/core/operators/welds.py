@@ -22,7 +22,16 @@ from halfmesh.core.statuses import (
     TOO_LARGE,
 )
 
-__all__ = ["try_unweld", "try_weld", "try_weld_vertices", "unweld", "unweld_status", "weld", "weld_status"]
+__all__ = [
+    "try_unweld",
+    "try_weld",
+    "try_weld_vertices",
+    "unweld",
+    "unweld_status",
+    "weld",
+    "weld_status",
+    "weld_vertices_status",
+]
 
 
 @operation
@@ -64,20 +73,34 @@ def try_weld(t: Any, a: int, b: int, allow_parallel: bool) -> int:
 
 
 @operation
+def weld_vertices_status(t: Any, u: int, v: int, allow_parallel: bool = False) -> int:
+    """Whether two vertices may be welded, at the gaps of their halfedges or isolated: ``OK`` or a code.
+
+    Cost: the degree of one times that of the other at worst.
+    """
+    if u == v:
+        return SAME_VERTEX
+    a, b = halfedge_of_vertex(t, u), halfedge_of_vertex(t, v)
+    if a < 0 or b < 0:
+        return OK
+    if not is_exterior(t, a) or not is_exterior(t, b):
+        return CLOSED_VERTEX
+    return weld_status(t, a, b, allow_parallel)
+
+
+@operation
 def try_weld_vertices(t: Any, u: int, v: int, allow_parallel: bool) -> int:
     """Weld two vertices, at the gaps of their halfedges or isolated: `u`, which stays, or the negative code."""
     status = vertex_status(t, u)
     if status == OK:
         status = vertex_status(t, v)
-    if status == OK and u == v:
-        status = SAME_VERTEX
+    if status == OK:
+        status = weld_vertices_status(t, u, v, allow_parallel)
     if status != OK:
         return -status
     a, b = halfedge_of_vertex(t, u), halfedge_of_vertex(t, v)
     if a >= 0 and b >= 0:
-        if not is_exterior(t, a) or not is_exterior(t, b):
-            return -CLOSED_VERTEX
-        return try_weld(t, a, b, allow_parallel)
+        return weld(t, a, b)
     if b >= 0:
         _turn_over(t, b, u)
         set_halfedge_of_vertex(t, u, b)

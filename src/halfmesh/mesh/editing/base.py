@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any, NoReturn, TypeVar
 
 import numpy as np
 
-from halfmesh._jit import Operation, lowered
+from halfmesh._jit import Kernel, Operation, lowered
 from halfmesh.core.statuses import DELETED_ELEMENT, MISSING_ELEMENT, REASONS
 from halfmesh.core.topology import NEWS
 from halfmesh.errors import ElementError, InvalidMeshError, StaleElementError, TopologyError
@@ -31,6 +31,7 @@ _ABOUT_AS_LONG_AS = 12  # elements: what an operator costs when it is interprete
 class Base(Counted):
     """The ways from a method to a kernel and back."""
 
+    has_points: bool
     vertex_data: AttributeTable
     halfedge_data: AttributeTable
     edge_data: AttributeTable
@@ -58,10 +59,11 @@ class Base(Counted):
 
     def _halfedges(self, elements: Iterable[Any]) -> NDArray[np.int64]:
         """The indices of many of them, where an edge stands for its first; ints are halfedges."""
-        return np.array(
-            [2 * self._index(Edge, x) if isinstance(x, Edge) else self._index(Halfedge, x) for x in elements],
-            dtype=np.int64,
-        )
+        indices = [2 * self._index(Edge, x) if isinstance(x, Edge) else self._index(Halfedge, x) for x in elements]
+        try:
+            return np.array(indices, dtype=np.int64)
+        except OverflowError:
+            return np.array([self._living(Halfedge, h) for h in indices])  # which raises for the first that is wrong
 
     def _living(self, kind: type[Element], element: Any) -> int:
         """The index of what is known to live: for questions, whose kernels do not ask that."""
@@ -75,7 +77,10 @@ class Base(Counted):
         quick, carrier = operation.quick, self._topology.lowered
         if quick is None or carrier is None:
             return self._act_slowly(operation, args)
-        result: int = quick(carrier, *args)
+        try:
+            result: int = quick(carrier, *args)
+        except OverflowError:  # no int64: there is no such element
+            return -MISSING_ELEMENT
         if self._t.counts[NEWS]:
             self._catch_up()
         return result
@@ -85,7 +90,10 @@ class Base(Counted):
         quick, carrier = operation.quick, self._topology.lowered
         if quick is None or carrier is None:
             return self._act_slowly(operation, (a, b))
-        result: int = quick(carrier, a, b)
+        try:
+            result: int = quick(carrier, a, b)
+        except OverflowError:
+            return -MISSING_ELEMENT
         if self._t.counts[NEWS]:
             self._catch_up()
         return result
@@ -133,10 +141,24 @@ class Base(Counted):
         return v
 
     def _act_slowly(self, operation: Operation[Any, Any], args: tuple[Any, ...]) -> int:
+        try:
+            args = _cast(operation, args)
+        except OverflowError:
+            return -MISSING_ELEMENT
         run: Any = operation.at(_ABOUT_AS_LONG_AS)
         result: int = run(self, *args)
         if "compiled" in operation.__dict__:
             operation.quick = operation.entry(self._topology.__compiled__(), *map(lowered, args))
+        return result
+
+    def _run(self, kernel: Kernel[Any, Any], n_steps: int, *args: Any) -> int:
+        """Run what is not one short act, but about so many steps of a loop."""
+        try:
+            args = _cast(kernel, args)
+        except OverflowError:
+            return -MISSING_ELEMENT
+        run: Any = kernel.at(n_steps)
+        result: int = run(self, *args)
         return result
 
     def _catch_up(self) -> None:
@@ -154,6 +176,7 @@ class Base(Counted):
         """The vertex, put there."""
         if place is not None:
             self.vertex_data.row("points", v)[:] = place
+            self.has_points = True
         return self._made(Vertex, v)
 
     def _refuse(self, doing: str, code: int, *elements: tuple[str, Any]) -> NoReturn:
@@ -170,9 +193,28 @@ class Base(Counted):
         raise NotImplementedError
 
 
+def _as_int64(value: int) -> int:
+    if not -(2**63) <= value < 2**63:
+        raise OverflowError
+    return value
+
+
+_CASTS: dict[str, Any] = {"int": _as_int64, "bool": bool, "float": float}
+
+
+def _cast(kernel: Kernel[Any, Any], args: tuple[Any, ...]) -> tuple[Any, ...]:
+    """The arguments after the mesh, as the kernel declares them: it is compiled for these types and no others."""
+    kinds = list(kernel.py_func.__annotations__.values())[1 : 1 + len(args)]
+    return tuple(_CASTS[kind](a) if kind in _CASTS else a for kind, a in zip(kinds, args, strict=True))
+
+
 def as_fraction(at: float) -> float:
     """A place on an edge: from 0 to 1."""
-    if not 0.0 <= at <= 1.0:  # which NaN is not
+    try:
+        is_fraction = bool(0.0 <= at <= 1.0)  # which NaN is not
+    except ValueError:  # several numbers
+        is_fraction = False
+    if not is_fraction:
         raise InvalidMeshError(f"at={at!r} is no place on the edge: it runs from 0 to 1", reason="bad_parameter")
     return float(at)
 

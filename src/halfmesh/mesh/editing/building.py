@@ -36,8 +36,6 @@ _new: Any = object.__new__  # `made`, where a call more counts
 class Building(Base):
     """The operations of a general half-edge mesh: wire, loops, parallel edges and faces, as they come."""
 
-    has_points: bool
-
     def add_vertex(self, point: ArrayLike | None = None) -> Vertex:
         """Add an isolated vertex.
 
@@ -80,9 +78,10 @@ class Building(Base):
                 if self._t.counts[NEWS]:
                     column.catch_up()
                     self._catch_up()
-            self.has_points = True
         if v < 0:
             self._refuse("add", v, ("a", "vertex"))
+        if point is not None:
+            self.has_points = True
         vertex: Vertex = _new(Vertex)
         vertex._t = self._t
         vertex.index = v

@@ -11,8 +11,8 @@ from halfmesh.core.construction import Defective, construct
 from halfmesh.core.diagnosis import explain
 from halfmesh.core.facelist import FaceList, as_face_list
 from halfmesh.core.operators.building import try_add_vertices
-from halfmesh.core.statuses import DELETED_ELEMENT, REASONS
-from halfmesh.core.topology import DELETED, FACE_SLOTS, VERTEX_SLOTS
+from halfmesh.core.statuses import DELETED_ELEMENT, REASONS, TOO_LARGE
+from halfmesh.core.topology import DELETED, FACE_SLOTS, LIMIT, VERTEX_SLOTS
 from halfmesh.errors import InvalidMeshError, StaleElementError, TopologyError
 from halfmesh.mesh.editing.base import Base
 from halfmesh.mesh.elements import Element, Vertex
@@ -26,8 +26,6 @@ __all__ = ["Bulk"]
 
 class Bulk(Base):
     """Building in bulk: at the speed of ``Mesh(faces, points)``, on a mesh that is there."""
-
-    has_points: bool
 
     def add_vertices(self, points: ArrayLike | int) -> NDArray[np.int64]:
         """Add isolated vertices.
@@ -64,7 +62,7 @@ class Bulk(Base):
         n = int(points) if positions is None else len(positions)  # type: ignore[arg-type]
         if n < 0:
             raise InvalidMeshError(f"can't add {n} vertices", reason="bad_count")
-        first: int = try_add_vertices.at(n)(self, n)
+        first = self._run(try_add_vertices, n, n) if n <= LIMIT else -TOO_LARGE
         if first < 0:
             self._refuse("add", first, ("vertices,", n))
         if positions is not None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from operator import index
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -18,6 +19,8 @@ from halfmesh.core.operators.seams import (
     try_stitch,
     try_zip_hole,
 )
+from halfmesh.core.statuses import DELETED_ELEMENT, MISSING_ELEMENT
+from halfmesh.core.topology import LIMIT
 from halfmesh.mesh.editing.base import Base
 from halfmesh.mesh.elements import Edge, Face, Halfedge
 
@@ -25,6 +28,8 @@ if TYPE_CHECKING:
     from collections.abc import Iterable
 
     from numpy.typing import NDArray
+
+    from halfmesh._jit import Kernel
 
 __all__ = ["Seams"]
 
@@ -111,7 +116,7 @@ class Seams(Base):
 
     def can_cut(self, path: Iterable[Halfedge | Edge | int]) -> bool:
         """Whether :meth:`cut` would cut along these. O(their number)."""
-        return cut_status(self, self._halfedges(path)) == 0
+        return self._may(cut_status, "cut along", path)
 
     def cut(self, path: Iterable[Halfedge | Edge | int]) -> NDArray[np.int64]:
         """Cut the surface open along edges: a path, or any others.
@@ -149,7 +154,7 @@ class Seams(Base):
         (array([24, 25]), 18, 1)
         """
         halfedges = self._halfedges(path)
-        first = self._run(try_cut, halfedges)
+        first = self._run(try_cut, _STEPS * len(halfedges), halfedges)
         if first < 0:
             self._refuse("cut along", first, ("halfedges", halfedges.tolist()))
         return np.arange(first, first + len(halfedges))
@@ -184,7 +189,8 @@ class Seams(Base):
 
         Notes
         -----
-        E - 1, V - 1 for each end that is welded; faces stay. O(degree^2) to ask, O(degree) to act.
+        E - 1, V - 1 for each end that is welded, and comes to lie in the middle; faces stay.
+        O(degree^2) to ask, O(degree) to act.
 
         Examples
         --------
@@ -214,12 +220,12 @@ class Seams(Base):
         halfedge : Halfedge or int
             An exterior one; its edge stays, and those before it.
         n : int, optional
-            How many pairs at most; as far as it goes if not given.
+            How many pairs at most; as far as it goes if not given. Nothing happens where it is below one.
 
         Returns
         -------
         int
-            The number of pairs that were stitched, one at least.
+            The number of pairs that were stitched.
 
         Raises
         ------
@@ -243,9 +249,11 @@ class Seams(Base):
         (2, 16, 1)
         """
         h = self._index(Halfedge, halfedge)
-        if n is not None and n < 1:
+        at_most = -1 if n is None else min(index(n), LIMIT)
+        if n is not None and at_most < 1:
+            self._living(Halfedge, halfedge)
             return 0
-        done = self._run(try_zip_hole, h, -1 if n is None else int(n))
+        done = self._run(try_zip_hole, 2 * _STEPS, h, at_most)
         if done < 0:
             self._refuse("zip the hole at", done, ("halfedge", h))
         return done
@@ -254,7 +262,7 @@ class Seams(Base):
 
     def can_split_loop(self, path: Iterable[Halfedge | int]) -> bool:
         """Whether :meth:`split_loop` would cut and cap the surface along these. O(their number)."""
-        return split_loop_status(self, self._halfedges(path)) == 0
+        return self._may(split_loop_status, "split along", path)
 
     def split_loop(self, path: Iterable[Halfedge | int]) -> tuple[Face, Face]:
         """Cut the surface along a closed path and cap both ends with a face.
@@ -293,7 +301,7 @@ class Seams(Base):
         (True, 0)
         """
         halfedges = self._halfedges(path)
-        f = self._run(try_split_loop, halfedges)
+        f = self._run(try_split_loop, _STEPS * len(halfedges), halfedges)
         if f < 0:
             self._refuse("split along", f, ("halfedges", halfedges.tolist()))
         return self._made(Face, f), self._made(Face, f + 1)
@@ -301,7 +309,7 @@ class Seams(Base):
     def can_join_loop(self, a: Halfedge | int, b: Halfedge | int, *, allow_parallel: bool = False) -> bool:
         """Whether :meth:`join_loop` would glue the faces of two halfedges. The cost of doing it, which is undone."""
         h, g = self._living(Halfedge, a), self._living(Halfedge, b)
-        return join_loop_status(self, h, g, allow_parallel) == 0
+        return self._run(join_loop_status, 3 * _STEPS, h, g, allow_parallel) == 0
 
     def join_loop(self, a: Halfedge | int, b: Halfedge | int, *, allow_parallel: bool = False) -> None:
         """Take two faces out and glue the rims: `a` to `b`, the next of `a` to the prev of `b`, and so on.
@@ -322,7 +330,8 @@ class Seams(Base):
 
         Notes
         -----
-        For n sides: V - n, E - n, F - 2: Euler's number - 2. Genus + 1, or components - 1. O(degrees).
+        For n sides: V - n, E - n, F - 2: Euler's number - 2. Genus + 1, or components - 1. Corners come to lie in
+        the middle of the two that they are glued of. O(degrees).
 
         Examples
         --------
@@ -333,14 +342,17 @@ class Seams(Base):
         (4, 2, 1)
         """
         h, g = self._index(Halfedge, a), self._index(Halfedge, b)
-        code = self._run(try_join_loop, h, g, allow_parallel)
+        code = self._run(try_join_loop, 3 * _STEPS, h, g, allow_parallel)
         if code < 0:
             self._refuse("glue the faces of", code, ("halfedge", h), ("halfedge", g))
 
-    def _run(self, kernel: Any, *args: Any) -> int:
-        """Run what is not one short act."""
-        result: int = kernel.at(sum(np.size(a) for a in args) * _STEPS)(self, *args)
-        return result
+    def _may(self, question: Kernel[Any, Any], doing: str, path: Iterable[Any]) -> bool:
+        """Ask about a path, whose elements must be there."""
+        halfedges = self._halfedges(path)
+        status = self._run(question, _STEPS * len(halfedges), halfedges)
+        if status in (MISSING_ELEMENT, DELETED_ELEMENT):
+            self._refuse(doing, status, ("halfedges", halfedges.tolist()))
+        return status == 0
 
 
 _STEPS = 100  # what a halfedge of a path costs when it is interpreted, counted in steps of a loop

@@ -10,7 +10,14 @@ from halfmesh.core.operators.vertices import (
     try_join_vertices,
     try_split_vertex,
 )
-from halfmesh.core.operators.welds import try_unweld, try_weld, try_weld_vertices, unweld_status, weld_status
+from halfmesh.core.operators.welds import (
+    try_unweld,
+    try_weld,
+    try_weld_vertices,
+    unweld_status,
+    weld_status,
+    weld_vertices_status,
+)
 from halfmesh.mesh.editing.base import Base, as_fraction, as_point
 from halfmesh.mesh.elements import Element, Halfedge, Vertex
 
@@ -143,10 +150,11 @@ class Vertices(Base):
 
     # -- at a gap --------------------------------------------------------------------------------------------------
 
-    def can_weld(self, a: Halfedge | int, b: Halfedge | int, *, allow_parallel: bool = False) -> bool:
-        """Whether :meth:`weld` would weld the origins of two halfedges. Some O(degree^2)."""
-        h, g = self._living(Halfedge, a), self._living(Halfedge, b)
-        return self._act(weld_status, h, g, allow_parallel) == 0
+    def can_weld(self, a: Vertex | Halfedge | int, b: Vertex | Halfedge | int, *, allow_parallel: bool = False) -> bool:
+        """Whether :meth:`weld` would weld the two; ints are vertices. Some O(degree^2)."""
+        kind = _welded_kind(a, b)
+        status = weld_status if kind is Halfedge else weld_vertices_status
+        return self._act(status, self._living(kind, a), self._living(kind, b), allow_parallel) == 0
 
     def weld(
         self,
@@ -164,7 +172,7 @@ class Vertices(Base):
             The first stays. Exterior halfedges say which gaps of their origins are joined, where there are several;
             vertices stand for the gap at their halfedge. They may be isolated.
         point : (3,) or (2,) array_like of float, optional
-            Where the vertex is to lie; where the first does if not given.
+            Where the vertex is to lie; in the middle of the two if not given.
         allow_parallel : bool
             Also where edges become loops or parallel: before :meth:`close_edge`, for one.
 
@@ -196,10 +204,9 @@ class Vertices(Base):
         (4, 5, 1)
         """
         place = None if point is None else as_point(point)
-        at_gaps = isinstance(a, Halfedge) and isinstance(b, Halfedge)
-        kind: type[Element] = Halfedge if at_gaps else Vertex
+        kind = _welded_kind(a, b)
         u, w = self._index(kind, a), self._index(kind, b)
-        v = self._act(try_weld if at_gaps else try_weld_vertices, u, w, allow_parallel)
+        v = self._act(try_weld if kind is Halfedge else try_weld_vertices, u, w, allow_parallel)
         if v < 0:
             self._refuse("weld", v, (kind.kind, u), (kind.kind, w))
         return self._placed(v, place)
@@ -245,3 +252,8 @@ class Vertices(Base):
         if w < 0:
             self._refuse("unweld", w, ("halfedge", h), ("halfedge", g))
         return self._made(Vertex, w)
+
+
+def _welded_kind(a: object, b: object) -> type[Element]:
+    """What two arguments name: gaps, if both are halfedges."""
+    return Halfedge if isinstance(a, Halfedge) and isinstance(b, Halfedge) else Vertex

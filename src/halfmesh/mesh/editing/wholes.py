@@ -35,7 +35,6 @@ _TABLES = ("vertex_data", "halfedge_data", "edge_data", "face_data")
 class Wholes(Base):
     """Operations on components and on meshes as a whole."""
 
-    has_points: bool
     build_seconds: float
     meta: dict[str, Any]
     _meta: dict[str, Any]
@@ -233,8 +232,7 @@ class Wholes(Base):
 
     def _run_through(self, kernel: Any, *args: Any) -> int:
         """Run what goes over much of the mesh."""
-        result: int = kernel.at(10 * len(self._topology.next))(self, *args)
-        return result
+        return self._run(kernel, 10 * len(self._topology.next), *args)
 
     def _mask(self, kind: type[Element], elements: Any) -> NDArray[np.bool_]:
         """The elements as a mask. What is named must be alive; a mask that was computed may be true of the deleted."""
@@ -244,7 +242,10 @@ class Wholes(Base):
             if not all(type(x) is int for x in elements):
                 resolve = getattr(self, kind.plural).resolve
                 elements = [resolve(x) for x in elements]
-            elements = np.array(elements, dtype=np.int64)
+            try:
+                elements = np.array(elements, dtype=np.int64)
+            except OverflowError:
+                elements = [getattr(self, kind.plural).resolve(x) for x in elements]  # raises for what is no index
         if elements.dtype == bool:
             if elements.shape != marks.shape:
                 raise ElementError(f"a mask of {kind.plural} has {len(marks)} entries here; got {elements.shape}")
