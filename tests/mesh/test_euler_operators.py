@@ -308,3 +308,16 @@ def test_triangular_split_interpolates_along_the_edge():
     mesh = hm.Mesh([[0, 1, 2], [1, 0, 3]], points=[[0, 0], [4, 0], [2, 2], [2, -2]])
     assert mesh.split_edge_triangular(mesh.find_halfedge(1, 0), at=0.25).point.tolist() == [3, 0, 0]
     assert mesh.split_edge_triangular(mesh.find_halfedge(0, 2), [0, 9]).point.tolist() == [0, 9, 0]
+
+
+def test_values_of_two_edges_are_united_when_the_vertex_between_is_dissolved():
+    mesh = hm.shapes.grid(2, 2)
+    mesh.edge_data.add("length", float, policy="sum")[:] = 1.0
+    mesh.edge_data.add("sharpness", float, policy="max")[:] = 2.0
+    n = mesh.n_edges
+    v = mesh.split_edge(0, at=0.25)
+    mesh.edge_data["sharpness"][-1] = 3.0
+    mesh.dissolve_vertex(v)
+    living = mesh.edges.indices
+    assert mesh.edge_data["length"][living].tolist() == [1.0] * n
+    assert sorted(mesh.edge_data["sharpness"][living].tolist())[-2:] == [2.0, 3.0]

@@ -6,6 +6,7 @@ from typing import Any
 
 from halfmesh._jit import kernel, operation
 from halfmesh.core.navigation import ccw_of, halfedge_of_vertex, is_exterior, next_of, origin_of, target_of
+from halfmesh.core.notes import EDGES, note_union
 from halfmesh.core.operators.asking import halfedge_status, is_joined, vertex_status
 from halfmesh.core.operators.splits import join_faces, join_faces_status
 from halfmesh.core.operators.vertices import join_vertices, join_vertices_status
@@ -99,7 +100,7 @@ def dissolve_vertex(t: Any, v: int) -> None:
     s = halfedge_of_vertex(t, v)
     k = ccw_of(t, s)
     if ccw_of(t, k) == s:  # one edge or two
-        join_vertices(t, k)
+        _make_one(t, k)
         return
     closed = not is_exterior(t, s)
     x = k if closed else ccw_of(t, k)
@@ -107,7 +108,16 @@ def dissolve_vertex(t: Any, v: int) -> None:
         after = ccw_of(t, x)
         join_faces(t, x ^ 1)
         x = after
-    join_vertices(t, s if closed else k)
+    _make_one(t, s if closed else k)
+
+
+@kernel
+def _make_one(t: Any, h: int) -> None:
+    """Take the origin of `h` away, with its only edge, or so that its two edges become one, that of the other."""
+    x = ccw_of(t, h)
+    if x != h:
+        note_union(t, EDGES, x >> 1, h >> 1, 0.5)
+    join_vertices(t, h)
 
 
 @operation
@@ -150,7 +160,7 @@ def _dissolve_between(t: Any, v: int) -> None:
     s = halfedge_of_vertex(t, v)
     k = ccw_of(t, s)
     if k != s and ccw_of(t, k) == s and join_vertices_status(t, k) == OK:
-        join_vertices(t, k)
+        _make_one(t, k)
 
 
 @operation
