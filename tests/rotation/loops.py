@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from .holes import fill_hole
-from .known import KNOWN
 from .rings import true
 from .seams import cut, is_boundary, stitch, why_not_stitch
 
@@ -46,7 +45,7 @@ def glue(m, h, g, allow_parallel):
     m.lift(m.face[g])
     for a, b in pairs:
         if b not in m.face:  # the face ran along both sides of one edge, which is gone
-            return {"same_edge"} | ({"loop_edge"} if "glue what is gone" in KNOWN else set())
+            return {"same_edge"}
         reasons = why_not_stitch(m, a, b, allow_parallel)
         if reasons:
             return reasons

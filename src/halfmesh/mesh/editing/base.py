@@ -112,25 +112,23 @@ class Base(Counted):
         if operation.quick is None or carrier is None or self._savepoints or column.policy != "lerp":
             return self._act_and_place(operation, (element,) if weight is None else (element, weight), point)
         x, y, z = (0.0, 0.0, 0.0) if point is None else as_xyz(point)
-        quick = placing.quick or placing.compiled
-        is_only = len(columns) == 1
-        v: int = quick(
-            carrier,
-            column.lowered or column.__compiled__(),
-            is_only,
-            point is not None,
-            x,
-            y,
-            z,
-            element,
-            weight or 0.0,
-        )
-        if quick is not placing.quick:
-            placing.quick = placing.entry(carrier, column.lowered, True, True, x, y, z, element, 0.0)
+        points, quick = column.lowered or column.__compiled__(), placing.quick
+        args = (carrier, points, len(columns) == 1, point is not None, x, y, z, element, weight or 0.0)
+        try:
+            if quick is None:
+                _as_int64(element)
+                v: int = placing.compiled(*args)
+                placing.quick = placing.entry(*args)
+            else:
+                v = quick(*args)
+        except OverflowError:
+            return -MISSING_ELEMENT
         if self._t.counts[NEWS]:
             column.catch_up()
             self._topology.catch_up(compiled=True)
             self._follow((column,))
+        if point is not None and v >= 0:
+            self.has_points = True
         return v
 
     def _act_and_place(self, operation: Operation[Any, Any], args: tuple[Any, ...], point: ArrayLike | None) -> int:
@@ -138,6 +136,7 @@ class Base(Counted):
         v = self._act(operation, *args)
         if place is not None and v >= 0:
             self.vertex_data.row("points", v)[:] = place
+            self.has_points = True
         return v
 
     def _act_slowly(self, operation: Operation[Any, Any], args: tuple[Any, ...]) -> int:
@@ -210,6 +209,8 @@ def _cast(kernel: Kernel[Any, Any], args: tuple[Any, ...]) -> tuple[Any, ...]:
 
 def as_fraction(at: float) -> float:
     """A place on an edge: from 0 to 1."""
+    if type(at) is float and 0.0 <= at <= 1.0:
+        return at
     try:
         is_fraction = bool(0.0 <= at <= 1.0)  # which NaN is not
     except ValueError:  # several numbers

@@ -12,7 +12,7 @@ from halfmesh.core.operators.splits import (
     try_split_edge_triangular,
     try_split_face,
 )
-from halfmesh.core.statuses import DELETED_ELEMENT
+from halfmesh.core.statuses import DELETED_ELEMENT, MISSING_ELEMENT
 from halfmesh.core.topology import NEWS
 from halfmesh.mesh.editing.base import Base, as_fraction, as_point
 from halfmesh.mesh.editing.placing import collapse_at, split_edge_at, split_face_at
@@ -91,7 +91,10 @@ class Local(Base):
         if quick is None or carrier is None:
             code = self._act_slowly(try_flip, (e, allow_parallel))
         else:  # what `_act_on_two` does, without its call: 40 ns of 280
-            code = quick(carrier, e, allow_parallel)
+            try:
+                code = quick(carrier, e, allow_parallel)
+            except OverflowError:
+                code = -MISSING_ELEMENT
             if self._t.counts[NEWS]:
                 self._catch_up()
         if code < -DELETED_ELEMENT:
@@ -144,7 +147,7 @@ class Local(Base):
         (2, 13, [5, 5])
         """
         h = 2 * edge.index if type(edge) is Edge and edge._t is self._t else self._halfedge_index(edge)
-        v = self._act_at(try_split_edge, split_edge_at, h, 0.5 if at == 0.5 else as_fraction(at), point)
+        v = self._act_at(try_split_edge, split_edge_at, h, as_fraction(at), point)
         if v < 0:
             self._refuse("split", v, ("edge", h >> 1))
         return self._made(Vertex, v)
@@ -347,7 +350,7 @@ class Local(Base):
         True
         """
         h = halfedge.index if type(halfedge) is Halfedge and halfedge._t is self._t else self._index(Halfedge, halfedge)
-        v = self._act_at(try_collapse, collapse_at, h, 1.0 if at == 1.0 else as_fraction(at), point)
+        v = self._act_at(try_collapse, collapse_at, h, as_fraction(at), point)
         if v < -DELETED_ELEMENT:
             return None
         if v < 0:
