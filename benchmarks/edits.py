@@ -13,7 +13,8 @@ KINDS = ("flip", "split_edge", "split_face", "collapse")
 
 
 def cases(plan: Plan) -> list[Case]:
-    return [Case(kind, f"sphere-{plan.small}") for kind in KINDS]
+    """On a sphere that compas can hold with all its faces split."""
+    return [Case(kind, f"sphere-{plan.small - 1}") for kind in KINDS]
 
 
 def measure(peer: Peer, case: Case, plan: Plan) -> list[dict[str, Any]]:

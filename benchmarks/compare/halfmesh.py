@@ -234,7 +234,9 @@ class HalfMesh(Peer):
         built = hm.Mesh(surface.faces, surface.points)
 
         def handles() -> Any:
+            """With room for new elements: that columns grow, once for many, is another matter."""
             mesh = built.copy()
+            mesh.split_edge(mesh.n_edges - 1)
             return mesh, [mesh.edges[e] for e in range(n)], mesh.vertices[0]
 
         def flips(state: Any) -> None:

@@ -231,6 +231,7 @@ def _build_by_hand() -> None:
     for _ in range(6):
         mesh.add_vertex()
     edges = [mesh.add_edge(0, 1), mesh.add_edge(1, 2), mesh.add_edge(2, 0)]
+    mesh.remove_edge(mesh.add_edge(edges[0].halfedge, 5))
     mesh.add_face(halfedges=[e.halfedge for e in edges])
     mesh.add_face([3, 4, 5])
     mesh.make_adjacent(mesh.halfedges[1], mesh.halfedges[1].next)

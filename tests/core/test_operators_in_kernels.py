@@ -113,3 +113,37 @@ def test_both_gears_do_the_same():
     for name in ("next", "prev", "origin", "face", "vertex_halfedge", "face_halfedge"):
         assert np.array_equal(getattr(one.topology, name), getattr(other.topology, name))
     assert np.array_equal(one.points, other.points)
+
+
+# -- refusals that the twin found (tests/rotation): meshes with loop and parallel edges ------------------------------
+
+
+def edges(n, *pairs):
+    mesh = hm.Mesh([], n_vertices=n)
+    for u, v in pairs:
+        mesh.add_edge(u, v)
+    return mesh
+
+
+def test_stitch_that_doubles_an_edge_at_a_shared_end_is_refused():
+    mesh = edges(3, (0, 1), (0, 1), (1, 2), (1, 2))
+    assert hm.stitch_status(mesh, 0, 4, False) != 0
+
+
+def test_stitch_may_double_edges_that_close_next():
+    mesh = edges(3, (0, 1), (0, 1), (0, 2), (0, 2))
+    assert hm.stitch_status(mesh, 3, 4, False) == 0
+    assert mesh.zip_hole(3) == 2
+    assert_valid(mesh)
+
+
+def test_loop_edge_at_the_origin_is_no_reason_against_a_collapse():
+    mesh = edges(2, (0, 0), (0, 1))
+    assert hm.collapse_status(mesh, 2) == hm.collapse_status(mesh, 3) == 0
+
+
+def test_collapse_beside_a_loop_edge_may_not_have_a_triangle_pass_a_vertex_twice():
+    mesh = hm.Mesh([[1, 0, 0], [0, 2, 1], [0, 1, 2]], twins=[6, -1, 5, -1, 7, 2, 0, 4, -1], n_vertices=3)
+    with pytest.raises(hm.TopologyError) as error:
+        mesh.collapse(0)
+    assert error.value.reason == "would_pinch_face"

@@ -95,3 +95,23 @@ def test_adding_is_amortised():
         capacities.add(mesh.topology.capacity_nbytes)
     assert mesh.n_vertices == 1000
     assert len(capacities) < 15
+
+
+def test_edge_goes_into_the_gap_that_is_said():
+    for n in range(2):
+        mesh = hm.Mesh([[0, 1, 2], [0, 3, 4]], n_vertices=6)
+        gaps = [h for h in mesh.vertices[0].outgoing() if h.is_exterior]
+        e = mesh.add_edge(gaps[n], 5)
+        assert_valid(mesh)
+        assert (e.vertices, e.halfedge.twin.next) == ((mesh.vertices[0], mesh.vertices[5]), gaps[n])
+        loop = mesh.add_edge(gaps[n], gaps[1 - n])
+        assert_valid(mesh)
+        assert loop.halfedge.twin.next == gaps[n]
+
+
+def test_halfedge_with_a_face_names_no_gap():
+    mesh = hm.Mesh([[0, 1, 2]], n_vertices=4)
+    with pytest.raises(hm.TopologyError) as error:
+        mesh.add_edge(mesh.find_halfedge(0, 1), 3)
+    assert error.value.reason == "not_exterior"
+    assert mesh.n_edges == 3

@@ -29,7 +29,7 @@ from numpy.typing import NDArray
 from halfmesh._jit import kernel
 from halfmesh.core.notes import BETWEEN, COPY, CYCLE, PART, UNION, WEDGE
 
-__all__ = ["POLICIES", "Policy", "checked_policy", "default_policy", "replay"]
+__all__ = ["LERP", "POLICIES", "Policy", "checked_policy", "default_policy", "replay", "replay_notes"]
 
 Policy = str | Callable[[NDArray[Any], NDArray[np.float64]], Any]
 
@@ -80,7 +80,7 @@ def replay(
         return
     code = POLICIES[policy]
     rows = values.reshape(len(values), -1)
-    run: Any = _replay.at(len(notes) // 4)
+    run: Any = replay_notes.at(len(notes) // 4)
     if code in _CHOOSING:  # as bytes: one compiled form for all dtypes
         rows = rows.view(np.uint8)
     elif rows.dtype.kind == "c":
@@ -88,7 +88,7 @@ def replay(
     elif rows.dtype.kind == "b":
         rows = rows.view(np.uint8)
     elif rows.dtype.kind == "f" and rows.dtype.itemsize not in (4, 8):
-        run = _replay.interpreted  # compiled code knows neither half nor long double
+        run = replay_notes.interpreted  # compiled code knows neither half nor long double
     run(rows, notes, weights, len(notes), kind, code, rows.dtype.kind != "f")
 
 
@@ -96,7 +96,8 @@ def replay(
 
 
 @kernel
-def _replay(values: Any, notes: Any, weights: Any, size: int, kind: int, policy: int, rounds: bool) -> None:
+def replay_notes(values: Any, notes: Any, weights: Any, size: int, kind: int, policy: int, rounds: bool) -> None:
+    """Let rows of values follow the notes about elements of a kind, by one of the policies that are formulas."""
     place = parts = 0  # where the parts of one whole begin
     whole = -1
     while place < size:

@@ -20,13 +20,15 @@ from halfmesh.core.navigation import (
     target_of,
     vertex_slots,
 )
-from halfmesh.core.operators.asking import both_status, edge_status, face_status, vertex_status
+from halfmesh.core.operators.asking import both_status, edge_status, face_status, halfedge_status, vertex_status
 from halfmesh.core.pens import changed, link, set_face, set_halfedge_of_vertex, set_next, set_prev
 from halfmesh.core.slots import delete_edge, delete_face, delete_vertex, is_full, new_edge, new_vertex, reserve
 from halfmesh.core.statuses import (
     CLOSED_VERTEX,
+    DIFFERENT_VERTICES,
     NO_GAP,
     NOT_A_CHAIN,
+    NOT_EXTERIOR,
     OK,
     TAKEN_HALFEDGE,
     TOO_LARGE,
@@ -48,6 +50,7 @@ __all__ = [
     "remove_face",
     "remove_vertex",
     "try_add_edge",
+    "try_add_edge_in",
     "try_add_vertex",
     "try_add_vertices",
     "try_make_adjacent",
@@ -144,6 +147,41 @@ def try_add_edge(t: Any, u: int, v: int) -> int:
     if status != OK:
         return -status
     return add_edge(t, u, v)
+
+
+@operation
+def try_add_edge_in(t: Any, u: int, gap_u: int, v: int, gap_v: int) -> int:
+    """Add an edge from `u` to `v` in the gaps before these halfedges: its halfedge, or the negative code.
+
+    A gap of -1 is that of the vertex's own halfedge, if it has one.
+    """
+    status = _end_status(t, u, gap_u)
+    if status == OK:
+        status = _end_status(t, v, gap_v)
+    if status == OK and is_full(t, 0, 1, 0):
+        status = TOO_LARGE
+    if status != OK:
+        return -status
+    h = new_edge(t, u, v)
+    _hang(t, h, gap_u if gap_u >= 0 else halfedge_of_vertex(t, u))
+    _hang(t, h ^ 1, gap_v if gap_v >= 0 else halfedge_of_vertex(t, v))
+    changed(t)
+    return h
+
+
+@kernel
+def _end_status(t: Any, v: int, gap: int) -> int:
+    """Whether an edge may be hung to `v` before `gap`, which leaves it."""
+    status = vertex_status(t, v)
+    if status == OK and gap >= 0:
+        status = halfedge_status(t, gap)
+        if status == OK and not is_exterior(t, gap):
+            status = NOT_EXTERIOR
+        if status == OK and origin_of(t, gap) != v:
+            status = DIFFERENT_VERTICES
+    elif status == OK and is_closed(t, v, -1):
+        status = CLOSED_VERTEX
+    return status
 
 
 @kernel

@@ -59,13 +59,17 @@ def collapse_status(t: Any, h: int) -> int:
     if face_of(t, h) >= 0 and face_of(t, o) >= 0 and touches_gap(t, a) and touches_gap(t, b):
         return WOULD_PINCH
     p_out = prev_of(t, h) ^ 1
+    asked = not (left and origin_of(t, prev_of(t, h)) in (a, b)) and not (
+        right and target_of(t, next_of(t, o)) in (a, b)
+    )
     x = ccw_of(t, h)
     while x != h:
         apex = (left and x == p_out) or (right and x == next_of(t, o))
-        if not apex and (target_of(t, x) == b or is_joined(t, x ^ 1, b)):
+        c = target_of(t, x)
+        if not apex and c != a and (c == b or is_joined(t, x ^ 1, b)):  # a loop edge at the origin stays a loop
             return WOULD_BE_PARALLEL
         f = face_of(t, x)
-        if f >= 0 and f != face_of(t, h) and f != face_of(t, o) and _has_corner(t, x, b):
+        if f >= 0 and f != face_of(t, h) and f != face_of(t, o) and _has_corner(t, x, b, asked):
             return WOULD_PINCH_FACE
         x = ccw_of(t, x)
     return OK
@@ -89,9 +93,9 @@ def _side_status(t: Any, h: int) -> int:
 
 
 @kernel
-def _has_corner(t: Any, h: int, v: int) -> bool:
-    """Whether the face of `h` has a corner at `v`; a triangle's corners are neighbors, and were asked for as such."""
-    if is_triangle(t, h):
+def _has_corner(t: Any, h: int, v: int, asked: bool) -> bool:
+    """Whether the face of `h` has a corner at `v`; the corners of a triangle may have been asked for as neighbors."""
+    if asked and is_triangle(t, h):
         return False
     x = next_of(t, h)
     while x != h:

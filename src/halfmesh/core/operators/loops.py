@@ -29,6 +29,7 @@ from halfmesh.core.statuses import (
     NOT_A_CHAIN,
     NOT_A_CYCLE,
     OK,
+    SAME_EDGE,
     SAME_FACE,
     SHARED_VERTEX,
     SMALL_FACE,
@@ -169,6 +170,8 @@ def _glue(t: Any, h: int, g: int, allow_parallel: bool) -> int:
     remove_face(t, face_of(t, h))
     remove_face(t, face_of(t, g))
     for i in range(len(sides) // 2):
+        if both_status(t, sides[2 * i], sides[2 * i + 1]) != OK:  # gone with an edge that a face passes twice
+            return SAME_EDGE
         status = stitch_status(t, sides[2 * i], sides[2 * i + 1], allow_parallel)
         if status != OK:
             return status

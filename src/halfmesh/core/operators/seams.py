@@ -231,7 +231,11 @@ def stitch_status(t: Any, a: int, b: int, allow_parallel: bool = False) -> int:
     if origin_of(t, a) == origin_of(t, b) or target_of(t, a) == target_of(t, b):
         return WOULD_BE_LOOP
     status = _end_status(t, a, b, allow_parallel)
-    return _end_status(t, b, a, allow_parallel) if status == OK else status
+    if status == OK:
+        status = _end_status(t, b, a, allow_parallel)
+    if status == OK and not allow_parallel and _doubles(t, a, b):
+        status = WOULD_BE_PARALLEL
+    return status
 
 
 @kernel
@@ -245,10 +249,8 @@ def _end_status(t: Any, a: int, b: int, allow_parallel: bool) -> int:
     if is_joined(t, a, w):
         return WOULD_BE_LOOP
     q, r = target_of(t, a), origin_of(t, b)  # will be one as well, joined to u by the edges of a and b
-    if q != r:
-        crossed = _joins(t, g, q, b >> 1) or _joins(t, a, r, a >> 1)
-        if crossed or (_joins(t, a, q, a >> 1) and _joins(t, g, r, b >> 1)):
-            return WOULD_BE_PARALLEL
+    if q != r and (_joins(t, g, q, b >> 1) or _joins(t, a, r, a >> 1)):
+        return WOULD_BE_PARALLEL
     p = prev_of(t, a)
     closing = next_of(t, g) == p  # the edges of g and p will bound a hole of two sides, to be closed next
     x = g
@@ -259,6 +261,35 @@ def _end_status(t: Any, a: int, b: int, allow_parallel: bool) -> int:
         x = ccw_of(t, x)
         if x == g:
             return OK
+
+
+@kernel
+def _doubles(t: Any, a: int, b: int) -> bool:
+    """Whether an edge parallel to `a` and one parallel to `b` become parallel, those apart that will be closed next."""
+    u, q, w, r = origin_of(t, a), target_of(t, a), target_of(t, b), origin_of(t, b)
+    if u == w and q == r:  # they are so already
+        return False
+    n_pairs = _n_joining(t, a, q, a >> 1) * _n_joining(t, b ^ 1, r, b >> 1)
+    if n_pairs == 0:
+        return False
+    p, g = prev_of(t, a), next_of(t, b)
+    x, y = next_of(t, a), prev_of(t, b)
+    first = next_of(t, g) == p and origin_of(t, p) == q and target_of(t, g) == r
+    first = first and p >> 1 != a >> 1 and g >> 1 != b >> 1
+    second = next_of(t, x) == y and target_of(t, x) == u and origin_of(t, y) == w
+    second = second and x >> 1 != a >> 1 and y >> 1 != b >> 1 and not (first and p >> 1 == x >> 1 and g >> 1 == y >> 1)
+    return n_pairs > int(first) + int(second)
+
+
+@kernel
+def _n_joining(t: Any, h: int, v: int, without: int) -> int:
+    """How many edges but this one join the origin of `h` to `v`."""
+    n, x = 0, h
+    while True:
+        n += int(target_of(t, x) == v and x >> 1 != without)
+        x = ccw_of(t, x)
+        if x == h:
+            return n
 
 
 @kernel

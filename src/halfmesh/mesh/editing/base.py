@@ -11,7 +11,7 @@ from halfmesh.core.statuses import DELETED_ELEMENT, MISSING_ELEMENT, REASONS
 from halfmesh.core.topology import NEWS
 from halfmesh.errors import ElementError, InvalidMeshError, StaleElementError, TopologyError
 from halfmesh.mesh.counts import Counted
-from halfmesh.mesh.elements import Edge, Element, Halfedge, Vertex, made
+from halfmesh.mesh.elements import Edge, Element, Halfedge, Vertex
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -25,6 +25,7 @@ __all__ = ["TABLES", "Base", "as_fraction", "as_point", "as_xyz"]
 E = TypeVar("E", bound=Element)
 
 TABLES = ("vertex_data", "halfedge_data", "edge_data", "face_data")
+_new: Any = object.__new__
 _ABOUT_AS_LONG_AS = 12  # elements: what an operator costs when it is interpreted, counted in steps of a loop
 
 
@@ -36,6 +37,7 @@ class Base(Counted):
     halfedge_data: AttributeTable
     edge_data: AttributeTable
     face_data: AttributeTable
+    _savepoints: list[Any]
 
     def _index(self, kind: type[Element], element: Any) -> int:
         """The index of a handle or an int. Whether there is such an element, alive, the kernel asks."""
@@ -97,6 +99,47 @@ class Base(Counted):
             self._catch_up()
         return result
 
+    def _act_at(
+        self,
+        operation: Operation[Any, Any],
+        placing: Operation[Any, Any],
+        element: int,
+        weight: float | None,
+        point: ArrayLike | None,
+    ) -> int:
+        """Run an operator that makes or moves a vertex, with the points in the same call where that is possible."""
+        columns = self.vertex_data._columns
+        column, carrier = columns["points"], self._topology.lowered
+        if operation.quick is None or carrier is None or self._savepoints or column.policy != "lerp":
+            return self._act_and_place(operation, (element,) if weight is None else (element, weight), point)
+        x, y, z = (0.0, 0.0, 0.0) if point is None else as_xyz(point)
+        points, quick = column.lowered or column.__compiled__(), placing.quick
+        args = (carrier, points, len(columns) == 1, point is not None, x, y, z, element, weight or 0.0)
+        try:
+            if quick is None:
+                _as_int64(element)
+                v: int = placing.compiled(*args)
+                placing.quick = placing.entry(*args)
+            else:
+                v = quick(*args)
+        except OverflowError:
+            return -MISSING_ELEMENT
+        if self._t.counts[NEWS]:
+            column.catch_up()
+            self._topology.catch_up(compiled=True)
+            self._follow((column,))
+        if point is not None and v >= 0:
+            self.has_points = True
+        return v
+
+    def _act_and_place(self, operation: Operation[Any, Any], args: tuple[Any, ...], point: ArrayLike | None) -> int:
+        place = None if point is None else as_point(point)
+        v = self._act(operation, *args)
+        if place is not None and v >= 0:
+            self.vertex_data.row("points", v)[:] = place
+            self.has_points = True
+        return v
+
     def _act_slowly(self, operation: Operation[Any, Any], args: tuple[Any, ...]) -> int:
         try:
             args = _cast(operation, args)
@@ -124,7 +167,10 @@ class Base(Counted):
         self._follow()
 
     def _made(self, kind: type[E], index: int) -> E:
-        return made(kind, self._t, index)
+        handle: E = _new(kind)  # as `made`, whose call costs as much again
+        handle._t = self._t
+        handle.index = index
+        return handle
 
     def _placed(self, v: int, place: NDArray[np.float64] | None) -> Vertex:
         """The vertex, put there."""
@@ -164,6 +210,8 @@ def _cast(kernel: Kernel[Any, Any], args: tuple[Any, ...]) -> tuple[Any, ...]:
 
 def as_fraction(at: float) -> float:
     """A place on an edge: from 0 to 1."""
+    if type(at) is float and 0.0 <= at <= 1.0:
+        return at
     try:
         is_fraction = bool(0.0 <= at <= 1.0)  # which NaN is not
     except ValueError:  # several numbers

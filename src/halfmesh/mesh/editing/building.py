@@ -8,6 +8,7 @@ import numpy as np
 
 from halfmesh.core.operators.building import (
     try_add_edge,
+    try_add_edge_in,
     try_add_vertex,
     try_make_adjacent,
     try_remove_edge,
@@ -87,14 +88,20 @@ class Building(Base):
         return vertex
 
     def add_edge(
-        self, u: Vertex | int, v: Vertex | int, *, allow_loop: bool = True, allow_parallel: bool = True
+        self,
+        u: Vertex | Halfedge | int,
+        v: Vertex | Halfedge | int,
+        *,
+        allow_loop: bool = True,
+        allow_parallel: bool = True,
     ) -> Edge:
         """Add an edge without faces between two vertices that touch a gap, or are isolated.
 
         Parameters
         ----------
-        u, v : Vertex or int
-            May be the same: a loop edge.
+        u, v : Vertex or int, or Halfedge
+            May be the same: a loop edge. Where a vertex has several gaps, an exterior halfedge that leaves it says
+            which: that before it. A vertex stands for its halfedge.
         allow_loop : bool
             If False, a loop edge is refused.
         allow_parallel : bool
@@ -103,12 +110,12 @@ class Building(Base):
         Returns
         -------
         Edge
-            Its halfedge runs from `u` to `v`, if it is new. It is hung into the gap at the halfedge of each vertex.
+            Its halfedge runs from `u` to `v`, if it is new.
 
         Raises
         ------
         TopologyError
-            Faces close all around an end, or it is a loop that is not allowed.
+            Faces close all around an end, or a halfedge has a face, or it is a loop that is not allowed.
         StaleElementError, ElementError
             One of them was deleted, or there is none.
 
@@ -126,17 +133,24 @@ class Building(Base):
         >>> mesh.add_edge(1, 0, allow_parallel=False) == e
         True
         """
-        a, b = self._index(Vertex, u), self._index(Vertex, v)
+        (a, gap_a), (b, gap_b) = self._end(u), self._end(v)
         if not allow_loop and a == b:
             self._refuse("join", LOOP_EDGE, ("vertex", a), ("vertex", b))
         if not allow_parallel:
             found = self._act(find_halfedge, self._living(Vertex, a), self._living(Vertex, b))
             if found >= 0:
                 return self._made(Edge, found >> 1)
-        h = self._act(try_add_edge, a, b)
+        gap_is_said = gap_a >= 0 or gap_b >= 0
+        h = self._act(try_add_edge_in, a, gap_a, b, gap_b) if gap_is_said else self._act_on_two(try_add_edge, a, b)
         if h < 0:
             self._refuse("join", h, ("vertex", a), ("vertex", b))
         return self._made(Edge, h >> 1)
+
+    def _end(self, end: Any) -> tuple[int, int]:
+        """The vertex of an edge to be, and the halfedge before which it is to be hung; -1 if that is not said."""
+        if isinstance(end, Halfedge):
+            return end.origin.index, self._index(Halfedge, end)
+        return self._index(Vertex, end), -1
 
     def add_face(
         self, vertices: Iterable[Vertex | int] | None = None, *, halfedges: Iterable[Halfedge | int] | None = None
