@@ -232,6 +232,7 @@ def _build_by_hand() -> None:
         mesh.add_vertex()
     edges = [mesh.add_edge(0, 1), mesh.add_edge(1, 2), mesh.add_edge(2, 0)]
     mesh.remove_edge(mesh.add_edge(edges[0].halfedge, 5))
+    mesh.can_add_face([3, 4, 5]), mesh.can_add_face(halfedges=[0, 2, 4]), mesh.can_make_adjacent(0, 2)
     mesh.add_face(halfedges=[e.halfedge for e in edges])
     mesh.add_face([3, 4, 5])
     mesh.make_adjacent(mesh.halfedges[1], mesh.halfedges[1].next)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import itertools
+
 import numpy as np
 import pytest
 
@@ -115,3 +117,35 @@ def test_halfedge_with_a_face_names_no_gap():
         mesh.add_edge(mesh.find_halfedge(0, 1), 3)
     assert error.value.reason == "not_exterior"
     assert mesh.n_edges == 3
+
+
+def test_questions_say_what_the_acts_do_and_change_nothing():
+    mesh = hm.Mesh([[0, 1, 2], [2, 1, 3]], n_vertices=6)
+    mesh.add_edge(4, 5)
+    before = [getattr(mesh.topology, name).copy() for name in ("next", "prev", "origin", "face", "vertex_halfedge")]
+    counts = mesh.n_edges, mesh.n_faces, mesh.revision
+    vertices = range(6)
+    for corners in itertools.permutations(vertices, 3):
+        can, other = mesh.can_add_face(corners), mesh.copy()
+        assert can == does(lambda other=other, corners=corners: other.add_face(corners))
+    for u, v in itertools.product(vertices, vertices):
+        for options in ({}, {"allow_loop": False}, {"allow_parallel": False}):
+            can, other = mesh.can_add_edge(u, v, **options), mesh.copy()
+            assert can == does(lambda other=other, u=u, v=v, options=options: other.add_edge(u, v, **options))
+    for h, g in itertools.product(range(mesh.n_halfedges), repeat=2):
+        other = mesh.copy()
+        assert mesh.can_make_adjacent(h, g) == does(lambda other=other, h=h, g=g: other.make_adjacent(h, g))
+    rim = [int(h) for h in mesh.boundary_loops()[0]]
+    assert mesh.can_add_face(halfedges=rim)
+    assert not mesh.can_add_face(halfedges=rim[::-1])
+    assert (mesh.n_edges, mesh.n_faces, mesh.revision) == counts
+    for name, column in zip(("next", "prev", "origin", "face", "vertex_halfedge"), before, strict=True):
+        assert np.array_equal(getattr(mesh.topology, name), column)
+
+
+def does(act):
+    try:
+        act()
+    except hm.TopologyError:
+        return False
+    return True

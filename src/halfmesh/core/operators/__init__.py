@@ -7,6 +7,7 @@ ask: on an element that the status function refuses it may break the mesh.
 from halfmesh.core.operators.building import (
     add_edge,
     add_edge_in,
+    add_edge_in_status,
     add_edge_status,
     add_vertex,
     find_free_between,
@@ -39,6 +40,8 @@ from halfmesh.core.operators.dissolving import (
     try_dissolve_vertex,
 )
 from halfmesh.core.operators.faces import (
+    add_face_of_vertices_status,
+    add_face_status,
     try_add_face,
     try_add_face_of_vertices,
     try_add_faces,
@@ -134,7 +137,10 @@ from halfmesh.core.operators.wholes import (
 __all__ = [
     "add_edge",
     "add_edge_in",
+    "add_edge_in_status",
     "add_edge_status",
+    "add_face_of_vertices_status",
+    "add_face_status",
     "add_face_to_boundary",
     "add_face_to_boundary_status",
     "add_vertex",

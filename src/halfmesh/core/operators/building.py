@@ -37,6 +37,7 @@ from halfmesh.core.statuses import (
 __all__ = [
     "add_edge",
     "add_edge_in",
+    "add_edge_in_status",
     "add_edge_status",
     "add_vertex",
     "find_free_between",
@@ -150,16 +151,21 @@ def try_add_edge(t: Any, u: int, v: int) -> int:
 
 
 @operation
+def add_edge_in_status(t: Any, u: int, gap_u: int, v: int, gap_v: int) -> int:
+    """Whether an edge may be added from `u` to `v` in the gaps before these halfedges: ``OK`` or a code. Cost: O(1)."""
+    status = _end_status(t, u, gap_u)
+    if status == OK:
+        status = _end_status(t, v, gap_v)
+    return TOO_LARGE if status == OK and is_full(t, 0, 1, 0) else status
+
+
+@operation
 def try_add_edge_in(t: Any, u: int, gap_u: int, v: int, gap_v: int) -> int:
     """Add an edge from `u` to `v` in the gaps before these halfedges: its halfedge, or the negative code.
 
     A gap of -1 is that of the vertex's own halfedge, if it has one.
     """
-    status = _end_status(t, u, gap_u)
-    if status == OK:
-        status = _end_status(t, v, gap_v)
-    if status == OK and is_full(t, 0, 1, 0):
-        status = TOO_LARGE
+    status = add_edge_in_status(t, u, gap_u, v, gap_v)
     if status != OK:
         return -status
     h = new_edge(t, u, v)

@@ -43,6 +43,8 @@ from halfmesh.core.statuses import (
 from halfmesh.core.topology import FEW
 
 __all__ = [
+    "add_face_of_vertices_status",
+    "add_face_status",
     "add_faces_or_none",
     "add_faces_while_possible",
     "try_add_face",
@@ -51,6 +53,24 @@ __all__ = [
     "try_add_quad",
     "try_add_triangle",
 ]
+
+
+@operation
+def add_face_status(t: Any, halfedges: Any) -> int:
+    """Whether a face may be added with these halfedges: ``OK`` or a code. Cost: that of doing it, which is undone."""
+    before = begin_attempt(t)
+    f = try_add_face(t, halfedges)
+    end_attempt(t, before, False)
+    return OK if f >= 0 else -f
+
+
+@operation
+def add_face_of_vertices_status(t: Any, vertices: Any) -> int:
+    """Whether a face may be added with these corners: ``OK`` or a code. Cost: that of doing it, which is undone."""
+    before = begin_attempt(t)
+    f = try_add_face_of_vertices(t, vertices)
+    end_attempt(t, before, False)
+    return OK if f >= 0 else -f
 
 
 @operation

@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING, Any, NoReturn
 import numpy as np
 
 from halfmesh.core.operators.building import (
+    add_edge_in_status,
+    make_adjacent_status,
     try_add_edge,
     try_add_edge_in,
     try_add_vertex,
@@ -15,7 +17,14 @@ from halfmesh.core.operators.building import (
     try_remove_face,
     try_remove_vertex,
 )
-from halfmesh.core.operators.faces import try_add_face, try_add_face_of_vertices, try_add_quad, try_add_triangle
+from halfmesh.core.operators.faces import (
+    add_face_of_vertices_status,
+    add_face_status,
+    try_add_face,
+    try_add_face_of_vertices,
+    try_add_quad,
+    try_add_triangle,
+)
 from halfmesh.core.search import find_halfedge
 from halfmesh.core.statuses import LOOP_EDGE, MISSING_ELEMENT
 from halfmesh.core.topology import NEWS
@@ -146,11 +155,45 @@ class Building(Base):
             self._refuse("join", h, ("vertex", a), ("vertex", b))
         return self._made(Edge, h >> 1)
 
+    def can_add_edge(
+        self,
+        u: Vertex | Halfedge | int,
+        v: Vertex | Halfedge | int,
+        *,
+        allow_loop: bool = True,
+        allow_parallel: bool = True,
+    ) -> bool:
+        """Whether :meth:`add_edge` would give an edge, be it one that is there already. O(1), or the smaller degree."""
+        (a, gap_a), (b, gap_b) = self._end(u), self._end(v)
+        self._living(Vertex, a), self._living(Vertex, b)
+        if a == b and not allow_loop:
+            return False
+        if not allow_parallel and self._act_on_two(find_halfedge, a, b) >= 0:
+            return True
+        return self._act(add_edge_in_status, a, gap_a, b, gap_b) == 0
+
     def _end(self, end: Any) -> tuple[int, int]:
         """The vertex of an edge to be, and the halfedge before which it is to be hung; -1 if that is not said."""
         if isinstance(end, Halfedge):
             return end.origin.index, self._index(Halfedge, end)
         return self._index(Vertex, end), -1
+
+    def can_add_face(
+        self, vertices: Iterable[Vertex | int] | None = None, *, halfedges: Iterable[Halfedge | int] | None = None
+    ) -> bool:
+        """Whether :meth:`add_face` would add a face. The cost of doing it, which is undone."""
+        if (vertices is None) == (halfedges is None):
+            raise TypeError("can_add_face takes either vertices or halfedges=")
+        kind: type[Element] = Vertex if halfedges is None else Halfedge
+        elements = halfedges if vertices is None else vertices
+        assert elements is not None
+        indices = np.array([self._living(kind, x) for x in elements], dtype=np.int64)
+        return self._act(add_face_of_vertices_status if kind is Vertex else add_face_status, indices) == 0
+
+    def can_make_adjacent(self, arriving: Halfedge | int, leaving: Halfedge | int) -> bool:
+        """Whether :meth:`make_adjacent` could bring the two together. O(degree)."""
+        h, g = self._living(Halfedge, arriving), self._living(Halfedge, leaving)
+        return self._act_on_two(make_adjacent_status, h, g) == 0
 
     def add_face(
         self, vertices: Iterable[Vertex | int] | None = None, *, halfedges: Iterable[Halfedge | int] | None = None
