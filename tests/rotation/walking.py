@@ -17,6 +17,9 @@ from .rings import Rotation, true
 from .table import BY_NAME, KERNELS
 from .wholes import compact
 
+EMPTYING = {
+    "remove_component", "remove_vertex", "remove_edge", "remove_face", "make_hole", "join_vertices", "dissolve_edge",
+}  # fmt: skip
 SPECIMENS = {name: specimen.mesh() for name, specimen in zoo().items() if name in APPENDED}
 
 
@@ -42,8 +45,11 @@ class Walk:
             return "add_faces", [faces_to_add(self.twin, ints)]
         if chance < 0.05:
             return rng.choice(["compact", "copy"]), []
-        small = len(self.twin.origin) <= 2 * largest
-        name = rng.choice([name for name in names if small or not BY_NAME[name].grows] or names)
+        n = len(self.twin.origin) // 2
+        allowed = [name for name in names if n <= largest or not BY_NAME[name].grows] or names
+        name = rng.choice(allowed)
+        if name in EMPTYING and rng.random() * 40 > n:  # small meshes are to grow, not to vanish
+            name = rng.choice(allowed)
         return name, arguments(self.twin, BY_NAME[name], ints)
 
     def take(self, name, args):
