@@ -15,10 +15,9 @@ from benchmarks.growing import growth
 from benchmarks.operators import QUOTED, QUOTED_TRIANGLES, SPLIT, operations
 from benchmarks.runner import results_path
 from benchmarks.task import Task, size
-from benchmarks.tasks import TASKS
+from benchmarks.tasks import PARTS, TASKS
 from benchmarks.verdicts import verdicts
 
-BEGIN, END = "<!-- bench:begin -->", "<!-- bench:end -->"
 SPEEDS = "Speed in multiples of the fastest other library's, and the best time."
 
 
@@ -186,14 +185,14 @@ def tables(figures: Figures, tasks: list[str]) -> list[Table]:
 # ---- the verdict and the short table ---------------------------------------------------------------------------------
 
 
-def verdict_table(figures: Figures) -> Table:
+def verdict_table(figures: Figures, part: str) -> Table:
     words = {True: "yes", False: "**no**", None: "-"}
-    rows = [[row.what, row.asked, row.reached, words[row.passed]] for row in verdicts(figures)]
+    rows = [[row.what, row.asked, row.reached, words[row.passed]] for row in verdicts(figures, part)]
     return Table("What is asked, what is reached", ["what", "asked", "reached", "passed"], rows)
 
 
-def short_table(figures: Figures) -> Table:
-    """The README's: the main tasks, ours beside the fastest other library and openmesh."""
+def short_table(figures: Figures, part: str) -> Table:
+    """The README's: the main tasks of a part, ours beside the fastest other library and openmesh."""
     large, medium = size(figures.plan.large), size(figures.plan.medium)
     asked = [
         (f"build the mesh, {large} triangles", "build", f"{large} coherent", ""),
@@ -205,10 +204,14 @@ def short_table(figures: Figures) -> Table:
         ("one step through handles", "handles", "one step", "walk"),
         ("vertex normals", "normals", f"{medium} coherent", ""),
         ("flip an edge where it may be, from Python", "edits", "flip", ""),
+        ("split an edge, from Python", "edits", "split_edge", ""),
+        ("collapse an edge where it may be, from Python", "edits", "collapse", ""),
         ("add a face, from Python", "growing", growth("add_face", max(figures.plan.growing)), ""),
     ]
-    rows = [[what, *compared(figures, task, case, way)] for what, task, case, way in asked]
-    rows.append(["split every face and collapse it back in your code", *beside_quoted(figures, f"{medium} coherent")])
+    rows = [[what, *compared(figures, task, case, way)] for what, task, case, way in asked if task in PARTS[part]]
+    if part == "changing":
+        kernel = beside_quoted(figures, f"{medium} coherent")
+        rows.insert(0, ["split every face and collapse it back in your code", *kernel])
     return Table("", ["", OURS, "fastest other", "openmesh", "ratio"], rows)
 
 
@@ -256,30 +259,41 @@ def show(results: Record, tasks: list[str], console: Console) -> None:
     figures = Figures(results)
     for table in tables(figures, tasks):
         console.print(table.rich())
-    if figures.of("build", peer=OURS):
-        console.print(verdict_table(figures).rich())
+    for part in PARTS:
+        if is_measured(figures, part):
+            console.print(verdict_table(figures, part).rich())
     console.print(machine_line(figures))
 
 
+def is_measured(figures: Figures, part: str) -> bool:
+    return any(figures.of(task, peer=OURS) for task in PARTS[part])
+
+
 def render(quick: bool, console: Console) -> int:
-    """Write the tables between the marks of `docs/benchmarks.md` and `README.md`."""
+    """Write the tables of what was measured between the marks of `docs/benchmarks.md` and `README.md`."""
     figures = Figures(json.loads(results_path(quick).read_text()))
-    long = [verdict_table(figures), *tables(figures, list(TASKS))]
-    pages = {
-        ROOT / "docs" / "benchmarks.md": "\n".join([machine_line(figures), "", *(t.markdown() for t in long)]),
-        ROOT / "README.md": short_table(figures).markdown(),
-    }
-    missing = [path.relative_to(ROOT) for path, text in pages.items() if not replace_block(path, text)]
-    for path in missing:
-        console.print(f"{path}: no marks {BEGIN} and {END}")
+    missing = 0
+    for part in PARTS:
+        if not is_measured(figures, part):
+            continue
+        long = [verdict_table(figures, part), *tables(figures, PARTS[part])]
+        pages = {
+            ROOT / "docs" / "benchmarks.md": "\n".join([machine_line(figures), "", *(t.markdown() for t in long)]),
+            ROOT / "README.md": short_table(figures, part).markdown(),
+        }
+        for path, text in pages.items():
+            if not replace_block(path, part, text):
+                console.print(f"{path.relative_to(ROOT)}: no marks of bench:{part}")
+                missing += 1
     return 1 if missing else 0
 
 
-def replace_block(path: Path, text: str) -> bool:
-    """Put the text between the marks; False if the file has none."""
+def replace_block(path: Path, part: str, text: str) -> bool:
+    """Put the text between the marks of a part; False if the file has none."""
+    begin, end = f"<!-- bench:{part}:begin -->", f"<!-- bench:{part}:end -->"
     page = path.read_text() if path.exists() else ""
-    if BEGIN not in page or END not in page.split(BEGIN, 1)[1]:
+    if begin not in page or end not in page.split(begin, 1)[1]:
         return False
-    before, rest = page.split(BEGIN, 1)
-    path.write_text(f"{before}{BEGIN}\n\n{text}\n{END}{rest.split(END, 1)[1]}")
+    before, rest = page.split(begin, 1)
+    path.write_text(f"{before}{begin}\n\n{text}\n{end}{rest.split(end, 1)[1]}")
     return True

@@ -35,3 +35,7 @@ TASKS = {
         FIRST_USE,
     )
 }
+
+CHANGING = ("operators", "edits", "growing", "bulk", "queries")
+PARTS = {"asking": [name for name in TASKS if name not in CHANGING], "changing": list(CHANGING)}
+"""Each part has tables of its own on the pages, and keeps them as they are while none of its tasks is measured."""

@@ -25,8 +25,10 @@ class Verdict:
     passed: bool | None
 
 
-def verdicts(figures: Figures) -> list[Verdict]:
-    groups = (building, adversarial, polygons, memory, loops, operators, editing, growing, files, first_use)
+def verdicts(figures: Figures, part: str) -> list[Verdict]:
+    """The bars of one part of the benchmarks, "asking" or "changing"; see `tasks.PARTS`."""
+    asking = (building, adversarial, polygons, memory, loops, files, first_use)
+    groups = asking if part == "asking" else (operators, editing, growing)
     return [row for group in groups for row in group(figures)]
 
 
