@@ -161,9 +161,9 @@ def _change() -> None:
         lambda: mesh.collapse(next(h for h in mesh.halfedges if mesh.can_collapse(h))),
     ):
         operator()
-    for _ in range(2):  # from the second call on they take the points along
-        plain = hm.shapes.icosphere(1)
-        plain.split_edge(0), plain.split_face(0), plain.try_collapse(9)
+    plain = hm.shapes.icosphere(1)
+    for i in range(2):  # from the second call on they take the points along
+        plain.split_edge(100), plain.split_face(60), plain.try_collapse(9 + i)
     _build_by_hand()
     _build_in_bulk()
     _change_wholes()
