@@ -174,7 +174,7 @@ class HalfMesh(Peer):
             "split_face": {"in one call": way(split_faces, "", faces_and_points)},
             "collapse": {
                 "ask, then act": way(ask_and_collapse, "", spokes),
-                "in one call": way(try_to_collapse, "refusals are caught", spokes),
+                "in one call": way(try_to_collapse, "try_collapse", spokes),
             },
         }[kind]
 
@@ -398,11 +398,8 @@ def try_to_collapse(state: Any) -> tuple[int, hm.Mesh]:
     mesh, halfedges = state
     n = 0
     for h in halfedges:
-        try:
-            mesh.collapse(h)
+        if mesh.try_collapse(h) is not None:
             n += 1
-        except hm.TopologyError:
-            pass
     return n, mesh
 
 

@@ -163,7 +163,7 @@ def _change() -> None:
         operator()
     plain = hm.shapes.icosphere(1)
     for i in range(2):  # from the second call on they take the points along
-        plain.split_edge(100), plain.split_face(60), plain.try_collapse(9 + i)
+        plain.split_edge(100), plain.split_face(60), plain.try_collapse(9 + i), plain.split_edge_triangular(110)
     _build_by_hand()
     _build_in_bulk()
     _change_wholes()

@@ -442,7 +442,10 @@ def edited(mesh, n):
         place = None if k % 3 else [0.5, float(k), -1.0]
         mesh.split_edge(rng.choice(mesh.edges.indices.tolist()), place, at=0.25 if place is None else 0.5)
         mesh.split_face(rng.choice(mesh.faces.indices.tolist()), place)
-        for _ in range(2):
+        e = rng.choice(mesh.edges.indices.tolist())
+        if mesh.can_split_edge_triangular(e):
+            mesh.split_edge_triangular(e, place, at=0.5)
+        for _ in range(3):
             mesh.try_collapse(rng.choice(mesh.halfedges.indices.tolist()), place, at=0.75)
     return mesh
 
@@ -467,8 +470,8 @@ def test_points_that_follow_in_the_same_call_are_those_that_follow_after_it(othe
         assert np.array_equal(quick.halfedge_data["uv"], slow.halfedge_data["uv"])
 
 
-def act_and_place(mesh, operation, placing, element, weight, point):
-    return mesh._act_and_place(operation, (element,) if weight is None else (element, weight), point)
+def act_and_place(mesh, operation, placing, element, weight, point, *more):
+    return mesh._act_and_place(operation, (element,) if weight is None else (element, weight, *more), point)
 
 
 def test_point_that_is_none_is_refused_before_anything_is_split():

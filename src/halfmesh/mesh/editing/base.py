@@ -102,16 +102,18 @@ class Base(Counted):
     def _act_at(
         self,
         operation: Operation[Any, Any],
-        placing: Operation[Any, Any],
+        placing: Operation[Any, Any] | None,
         element: int,
         weight: float | None,
         point: ArrayLike | None,
+        *more: Any,
     ) -> int:
         """Run an operator that makes or moves a vertex, with the points in the same call where that is possible."""
         columns = self.vertex_data._columns
         column, carrier = columns["points"], self._topology.lowered
-        if operation.quick is None or carrier is None or self._savepoints or column.policy != "lerp":
-            return self._act_and_place(operation, (element,) if weight is None else (element, weight), point)
+        if placing is None or operation.quick is None or carrier is None or self._savepoints or column.policy != "lerp":
+            args: tuple[Any, ...] = (element,) if weight is None else (element, weight, *more)
+            return self._act_and_place(operation, args, point)
         x, y, z = (0.0, 0.0, 0.0) if point is None else as_xyz(point)
         points, quick = column.lowered or column.__compiled__(), placing.quick
         args = (carrier, points, len(columns) == 1, point is not None, x, y, z, element, weight or 0.0)

@@ -14,8 +14,8 @@ from halfmesh.core.operators.splits import (
 )
 from halfmesh.core.statuses import DELETED_ELEMENT, MISSING_ELEMENT
 from halfmesh.core.topology import NEWS
-from halfmesh.mesh.editing.base import Base, as_fraction, as_point
-from halfmesh.mesh.editing.placing import collapse_at, split_edge_at, split_face_at
+from halfmesh.mesh.editing.base import Base, as_fraction
+from halfmesh.mesh.editing.placing import collapse_at, split_edge_at, split_edge_triangular_at, split_face_at
 from halfmesh.mesh.elements import Edge, Face, Halfedge, Vertex
 
 if TYPE_CHECKING:
@@ -215,12 +215,12 @@ class Local(Base):
         >>> v.degree, mesh.n_faces, mesh.is_triangular
         (4, 6, True)
         """
-        place = None if point is None else as_point(point)
-        h = self._halfedge_index(edge)
-        v = self._act(try_split_edge_triangular, h, as_fraction(at), allow_parallel)
+        h = 2 * edge.index if type(edge) is Edge and edge._t is self._t else self._halfedge_index(edge)
+        placing = None if allow_parallel else split_edge_triangular_at
+        v = self._act_at(try_split_edge_triangular, placing, h, as_fraction(at), point, allow_parallel)
         if v < 0:
             self._refuse("split", v, ("edge", h >> 1))
-        return self._placed(v, place)
+        return self._made(Vertex, v)
 
     def can_split_face(self, face: Face | int) -> bool:
         """Whether :meth:`split_face` would put a vertex into the face: always, if it lives."""

@@ -13,11 +13,11 @@ from halfmesh._jit import filled, kernel, operation
 from halfmesh.core.notes import VERTICES
 from halfmesh.core.operators.building import try_add_vertex
 from halfmesh.core.operators.collapses import try_collapse
-from halfmesh.core.operators.splits import try_split_edge, try_split_face
+from halfmesh.core.operators.splits import try_split_edge, try_split_edge_triangular, try_split_face
 from halfmesh.core.topology import HAS_NOTES, NEWS, NOTES_SIZE, NOTING, REPLACED, VERTEX_SLOTS
 from halfmesh.mesh.policies import LERP, replay_notes
 
-__all__ = ["collapse_at", "split_edge_at", "split_face_at", "try_add_vertex_at"]
+__all__ = ["collapse_at", "split_edge_at", "split_edge_triangular_at", "split_face_at", "try_add_vertex_at"]
 
 
 @operation
@@ -45,6 +45,14 @@ def split_edge_at(
 ) -> int:
     """Split the edge of `h` and place the new vertex: it, or the negative code."""
     return _placed(t, points, is_only, is_told, x, y, z, try_split_edge(t, h, weight))
+
+
+@operation
+def split_edge_triangular_at(
+    t: Any, points: Any, is_only: bool, is_told: bool, x: float, y: float, z: float, h: int, weight: float
+) -> int:
+    """Split the edge of `h` and the triangles beside, without parallels, and place the new vertex: it, or the code."""
+    return _placed(t, points, is_only, is_told, x, y, z, try_split_edge_triangular(t, h, weight, False))
 
 
 @operation
