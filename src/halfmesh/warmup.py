@@ -40,7 +40,7 @@ def warm_up() -> Generator[tuple[str, int, int], None, None]:
 
     Notes
     -----
-    Safe to run again: what is in the cache is only read. Some 15 seconds where nothing is.
+    Safe to run again: what is in the cache is only read. Where nothing is it takes a minute or so.
 
     Examples
     --------
