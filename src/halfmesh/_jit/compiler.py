@@ -4,9 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import functools
-import hashlib
 import os
-import pathlib
 import sys
 import threading
 import time
@@ -19,6 +17,8 @@ from halfmesh._jit.fingerprint import fingerprint
 from halfmesh._jit.loops import with_column_reads
 
 if TYPE_CHECKING:
+    import pathlib
+
     from numba.core.caching import FunctionCache
 
 __all__ = [
@@ -206,6 +206,8 @@ def entry_point(made: Any, args: tuple[Any, ...]) -> Any:
 
 @functools.cache
 def _own_source() -> str:
+    import pathlib
+
     here = pathlib.Path(__file__).parent
     return "".join((here / name).read_text("utf-8") for name in ("compiler.py", "kernels.py", "loops.py"))
 
@@ -218,6 +220,8 @@ def _versions() -> tuple[str, ...]:
 
 def cache_folder() -> pathlib.Path:
     """Where compiled kernels are kept: ``$HALFMESH_CACHE_DIR``, or the place that the system gives to caches."""
+    import pathlib
+
     import platformdirs
 
     chosen = os.environ.get("HALFMESH_CACHE_DIR")
@@ -245,6 +249,8 @@ def _disk_cache(function: types.FunctionType, stamp: str) -> FunctionCache | Non
         return None
     # A file for each stamp: two scripts may have a function of the same name, and Numba writes the index before the
     # code, so that one process could read what another wrote for other source.
+    import hashlib
+
     place = hashlib.blake2b(f"{function.__code__.co_filename} {stamp}".encode(), digest_size=8).hexdigest()
 
     class Locator(_CacheLocator):  # type: ignore[misc, unused-ignore]
@@ -287,6 +293,8 @@ def _disk_cache(function: types.FunctionType, stamp: str) -> FunctionCache | Non
 @functools.cache
 def _prune(folder: str) -> None:
     """Drop what earlier versions of kernels left behind; once in a process, and only in one that compiles anyway."""
+    import pathlib
+
     oldest = time.time() - 60 * 86400
     for entry in pathlib.Path(folder).glob("*.nb?"):
         with contextlib.suppress(OSError):

@@ -7,7 +7,6 @@ the same fingerprint compile to the same machine code, and an edit anywhere belo
 
 from __future__ import annotations
 
-import hashlib
 import types
 from typing import TYPE_CHECKING, Any
 
@@ -21,6 +20,8 @@ __all__ = ["fingerprint"]
 
 def fingerprint(function: types.FunctionType, *salt: str) -> str:
     """Hash of a function's code and of everything it can reach; `salt` adds what else the result depends on."""
+    import hashlib  # 3 ms, and only what compiles needs it
+
     digest = hashlib.blake2b(digest_size=16)
     for text in salt:
         digest.update(text.encode())

@@ -16,7 +16,6 @@ from numpy.typing import ArrayLike, NDArray
 
 from halfmesh.core import counting, invariants, tables
 from halfmesh.core.construction import Defective, construct
-from halfmesh.core.diagnosis import explain, explain_crowded, explain_twins
 from halfmesh.core.facelist import FaceList, as_corner_data, as_face_list, as_indices
 from halfmesh.core.notes import CORNERS, EDGES, FACES, VERTICES
 from halfmesh.core.search import find_halfedge
@@ -367,10 +366,14 @@ def _topology(faces: FaceList, twins: ArrayLike | None) -> Topology:
     try:
         topology, _ = construct(faces, given)
     except Defective:
+        from halfmesh.core.diagnosis import explain, explain_twins  # 4 ms of an import, for what fails only
+
         raise (explain(faces) if given is None else explain_twins(faces, given)) from None
     except OverflowError as error:
         raise InvalidMeshError(str(error), reason="too_large") from None
     if given is not None and len(crowded := invariants.one_ring_holds_all_of_a_vertex(topology)):
+        from halfmesh.core.diagnosis import explain_crowded
+
         raise explain_crowded(faces, crowded)
     return topology
 

@@ -8,7 +8,6 @@ import numpy as np
 
 from halfmesh.core.adding import Refused, add_faces
 from halfmesh.core.construction import Defective, construct
-from halfmesh.core.diagnosis import explain
 from halfmesh.core.facelist import FaceList, as_face_list
 from halfmesh.core.operators.building import try_add_vertices
 from halfmesh.core.statuses import DELETED_ELEMENT, REASONS, TOO_LARGE
@@ -120,6 +119,8 @@ class Bulk(Base):
             try:
                 add_faces(self._topology, face_list)
             except Defective:
+                from halfmesh.core.diagnosis import explain
+
                 raise explain(face_list) from None
             except Refused as refusal:
                 raise self._refusal(face_list, refusal) from None
@@ -142,6 +143,8 @@ class Bulk(Base):
         try:
             construct(faces)
         except Defective:
+            from halfmesh.core.diagnosis import explain
+
             return explain(faces)
         return TopologyError(
             f"can't add face {refusal.row} of the list, with vertices {corners}, to what is there: {sentence}; "
