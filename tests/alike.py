@@ -1,10 +1,16 @@
-"""Whether two meshes are the same but for the numbers of their elements."""
+"""What tests of operators share: meshes alike but for numbering, Euler's figures, refusals that change nothing."""
 
 from __future__ import annotations
 
 from collections import Counter
 
-__all__ = ["alike", "figures", "shape_of"]
+import numpy as np
+import pytest
+
+import halfmesh as hm
+from halfmesh.core.topology import COLUMNS
+
+__all__ = ["alike", "changed", "figures", "refused", "shape_of", "some"]
 
 
 def alike(one, other):
@@ -52,3 +58,30 @@ def text(t, h):
 def figures(mesh):
     """What Euler's formula is about: vertices, edges, faces, components, boundary loops."""
     return mesh.n_vertices, mesh.n_edges, mesh.n_faces, mesh.n_connected_components, mesh.n_boundary_loops
+
+
+def changed(before, mesh):
+    """By how much the figures have changed."""
+    return tuple(b - a for a, b in zip(before, figures(mesh), strict=True))
+
+
+def some(collection, n=10):
+    """A few elements, spread over all."""
+    indices = collection.indices.tolist()
+    return indices[:: max(1, len(indices) // n)]
+
+
+def refused(reason, operator, *elements, **options):
+    """Assert that a method of a mesh refuses these for this reason, and changes nothing."""
+    mesh = operator.__self__
+    before, revision = columns(mesh), mesh.revision
+    with pytest.raises(hm.TopologyError) as error:
+        operator(*elements, **options)
+    assert error.value.reason == reason
+    assert mesh.revision == revision
+    for name, column in columns(mesh).items():
+        assert np.array_equal(column, before[name]), name
+
+
+def columns(mesh):
+    return {name: getattr(mesh.topology, name).copy() for name in COLUMNS[:-1]}
