@@ -13,12 +13,12 @@ from numpy.typing import NDArray
 
 from halfmesh._jit import kernel
 from halfmesh.core.facelist import FaceList
+from halfmesh.core.listing import SHOWN, listed
 from halfmesh.errors import InvalidMeshError
 
-__all__ = ["explain", "explain_crowded", "explain_twins", "listed"]
+__all__ = ["explain", "explain_crowded", "explain_twins"]
 
 Ints = NDArray[np.integer]
-SHOWN = 3  # elements named in a message; the exception carries them all
 
 
 def explain(faces: FaceList) -> InvalidMeshError:
@@ -72,13 +72,6 @@ def _following(begins: Ints) -> Ints:
     full = begins[1:] > begins[:-1]
     following[begins[1:][full] - 1] = begins[:-1][full]
     return following
-
-
-def listed(items: Any, what: str = "") -> str:
-    """``3, 8, 12, ... (40 in all)``: the first few of many."""
-    items = list(items[: SHOWN + 1]) + [None] * max(0, len(items) - SHOWN - 1)
-    text = ", ".join(str(i) for i in items[:SHOWN])
-    return f"{what}{text}" + (f", ... ({len(items)} in all)" if len(items) > SHOWN else "")
 
 
 def _distinct(indices: Ints, n: int) -> Ints:

@@ -8,19 +8,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from halfmesh._jit import kernel
+from halfmesh.core.listing import listed
 from halfmesh.core.topology import N_EXTERIOR, Arrays, Topology, empty_columns
 from halfmesh.errors import InvalidMeshError
 
 __all__ = ["with_wire"]
 
 Ints = NDArray[np.int32]
-
-
-def listed(*what: Any) -> str:
-    """See :func:`halfmesh.core.diagnosis.listed`, which is imported when something is refused."""
-    from halfmesh.core.diagnosis import listed
-
-    return listed(*what)
 
 
 def with_wire(t: Topology, edges: Ints) -> Topology:
