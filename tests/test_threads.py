@@ -69,7 +69,7 @@ FIRST_USE = """
 import threading, time
 import numpy as np
 import halfmesh as hm
-from halfmesh._jit.compiler import CarrierType
+from halfmesh._jit.carriers import CarrierType
 define = CarrierType.define
 CarrierType.define = lambda carrier: (time.sleep(0.2), define(carrier))  # long enough for the others to come in between
 @hm.kernel

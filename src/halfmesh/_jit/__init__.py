@@ -15,13 +15,16 @@ Numba structref; in interpreted code it is an ordinary object with the same attr
 
     kernels       Kernel, Rule, Circulator: what is decorated
        |
-    compiler      the one file that imports Numba: dispatchers, the disk cache, carriers
+    carriers      structrefs that compiled code borrows; imports Numba, as does
+       |
+    compiler      dispatchers, the disk cache
        |
     loops . fingerprint . arguments . threads . gears
 """
 
 from halfmesh._jit.arguments import Carrier, Views, array_of, lowered, view
-from halfmesh._jit.compiler import CarrierType, apart, cache_folder, declare_carrier
+from halfmesh._jit.carriers import CarrierType, declare_carrier
+from halfmesh._jit.compiler import apart, cache_folder
 from halfmesh._jit.gears import compiling_always
 from halfmesh._jit.kernels import (
     Circulator,
