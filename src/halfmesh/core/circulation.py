@@ -14,7 +14,18 @@ from collections.abc import Iterator
 from typing import Any
 
 from halfmesh._jit import circulator, declared, kernel
-from halfmesh.core.navigation import ccw_of, edge_of, face_of, next_of, opposite_face_of, origin_of, target_of, twin_of
+from halfmesh.core.navigation import (
+    ccw_of,
+    edge_of,
+    face_of,
+    halfedge_of_face,
+    halfedge_of_vertex,
+    next_of,
+    opposite_face_of,
+    origin_of,
+    target_of,
+    twin_of,
+)
 
 __all__ = [
     "edges_around",
@@ -32,10 +43,10 @@ __all__ = [
 
 @kernel
 def ring_start(t: Any, v: int) -> int:
-    h = t.vertex_halfedge[v]
+    h = halfedge_of_vertex(t, v)
     if h < 0:
         return -1
-    return t.prev[h] ^ 1  # type: ignore[no-any-return]
+    return ccw_of(t, h)  # type: ignore[no-any-return]
 
 
 @kernel
@@ -45,7 +56,7 @@ def loop_start(t: Any, h: int) -> int:
 
 @kernel
 def face_start(t: Any, f: int) -> int:
-    return t.face_halfedge[f]  # type: ignore[no-any-return]
+    return halfedge_of_face(t, f)  # type: ignore[no-any-return]
 
 
 # -- around a vertex ---------------------------------------------------------------------------------------------

@@ -9,7 +9,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from halfmesh._jit import kernel
-from halfmesh.core.navigation import is_boundary_vertex
+from halfmesh.core.navigation import (
+    edge_slots,
+    halfedge_of_edge,
+    is_boundary_vertex,
+    next_of,
+    origin_of,
+    target_of,
+    vertex_slots,
+)
 from halfmesh.core.topology import DELETED, Topology
 
 __all__ = ["Components", "boundary_loops", "components", "vertex_kinds"]
@@ -65,12 +73,12 @@ def components(t: Topology) -> Components:
         return np.bincount(of_vertex[vertices], minlength=len(roots))
 
     halfedges, offsets = boundary_loops(t)
-    living_edges = np.flatnonzero(t.next[::2] != DELETED)
+    sides = halfedge_of_edge(t, np.arange(edge_slots(t)))
     living_faces = t.face_halfedge[t.face_halfedge != DELETED]
     return Components(
         of_vertex,
         tally(np.flatnonzero(alive)),
-        tally(t.origin[2 * living_edges]),
+        tally(t.origin[sides[t.next[sides] != DELETED]]),
         tally(t.origin[living_faces]),
         tally(t.origin[halfedges[offsets[:-1]]]),
     )
@@ -79,11 +87,12 @@ def components(t: Topology) -> Components:
 @kernel
 def _join(t: Any, label: Any) -> None:
     """Union-find over the edges, the lower vertex as root; flat afterwards."""
-    for v in range(t.counts[0]):
+    for v in range(vertex_slots(t)):
         label[v] = v
-    for e in range(t.counts[1]):
-        if t.next[2 * e] >= 0:
-            a, b = t.origin[2 * e], t.origin[2 * e + 1]
+    for e in range(edge_slots(t)):
+        h = halfedge_of_edge(t, e)
+        if next_of(t, h) >= 0:
+            a, b = origin_of(t, h), target_of(t, h)
             while label[a] != a:
                 label[a] = label[label[a]]
                 a = label[a]
@@ -94,7 +103,7 @@ def _join(t: Any, label: Any) -> None:
                 label[b] = a
             elif b < a:
                 label[a] = b
-    for v in range(t.counts[0]):
+    for v in range(vertex_slots(t)):
         label[v] = label[label[v]]
 
 
@@ -122,7 +131,7 @@ def _trace(t: Any, exterior: Any, seen: Any, halfedges: Any, offsets: Any) -> in
                 seen[h] = 1
                 halfedges[place] = h
                 place += 1
-                h = t.next[h]
+                h = next_of(t, h)
             n += 1
             offsets[n] = place
     return n

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from halfmesh._jit import operation
-from halfmesh.core.navigation import ccw_of, target_of
+from halfmesh.core.navigation import ccw_of, halfedge_of_vertex, halfedge_slots, target_of, twin_of
 
 __all__ = ["find_halfedge"]
 
@@ -16,15 +16,15 @@ def find_halfedge(t: Any, u: int, v: int) -> int:
 
     Walks the rings of both ends in lockstep, so the cost is the smaller of the two degrees.
     """
-    start_u, start_v = t.vertex_halfedge[u], t.vertex_halfedge[v]
+    start_u, start_v = halfedge_of_vertex(t, u), halfedge_of_vertex(t, v)
     if start_u < 0 or start_v < 0:
         return -1
     h, g = start_u, start_v
-    for _ in range(2 * t.counts[1]):
+    for _ in range(halfedge_slots(t)):
         if target_of(t, h) == v:
             return h  # type: ignore[no-any-return]
         if target_of(t, g) == u:
-            return g ^ 1  # type: ignore[no-any-return]
+            return twin_of(t, g)  # type: ignore[no-any-return]
         h, g = ccw_of(t, h), ccw_of(t, g)
         if h == start_u or g == start_v:
             break

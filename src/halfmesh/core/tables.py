@@ -12,9 +12,20 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from halfmesh._jit import kernel
+from halfmesh._jit import Kernel, kernel
 from halfmesh.core.circulation import face_halfedges, outgoing
-from halfmesh.core.navigation import face_of, opposite_face_of, target_of
+from halfmesh.core.navigation import (
+    edge_slots,
+    face_of,
+    face_slots,
+    halfedge_of_edge,
+    halfedge_of_face,
+    next_of,
+    opposite_face_of,
+    origin_of,
+    target_of,
+    vertex_slots,
+)
 from halfmesh.core.topology import DELETED, Topology
 
 __all__ = [
@@ -75,12 +86,12 @@ def face_neighbors(t: Topology) -> Table:
 
 def edge_vertices(t: Topology) -> Ints:
     """The two ends of each edge, shape (n, 2); -1 for deleted edges."""
-    return np.where((t.next >= 0).reshape(-1, 2), t.origin.reshape(-1, 2), -1)
+    return _of_edges(t, _fill_ends)
 
 
 def edge_faces(t: Topology) -> Ints:
     """The faces left and right of each edge, shape (n, 2); -1 where there is none."""
-    return np.where((t.next >= 0).reshape(-1, 2), t.face.reshape(-1, 2), -1)
+    return _of_edges(t, _fill_sides)
 
 
 def triangles(t: Topology) -> Ints:
@@ -88,6 +99,30 @@ def triangles(t: Topology) -> Ints:
     first = t.face_halfedge[t.face_halfedge != DELETED]
     second = t.next[first]
     return np.stack([t.origin[first], t.origin[second], t.origin[t.next[second]]], axis=1)
+
+
+def _of_edges(t: Topology, fill: Kernel[Any, Any]) -> Ints:
+    table = np.empty((edge_slots(t), 2), dtype=np.int32)
+    fill.at(len(table))(t, table)
+    return table
+
+
+@kernel
+def _fill_ends(t: Any, table: Any) -> None:
+    for e in range(len(table)):
+        h = halfedge_of_edge(t, e)
+        is_alive = next_of(t, h) >= 0
+        table[e, 0] = origin_of(t, h) if is_alive else -1
+        table[e, 1] = target_of(t, h) if is_alive else -1
+
+
+@kernel
+def _fill_sides(t: Any, table: Any) -> None:
+    for e in range(len(table)):
+        h = halfedge_of_edge(t, e)
+        is_alive = next_of(t, h) >= 0
+        table[e, 0] = face_of(t, h) if is_alive else -1
+        table[e, 1] = opposite_face_of(t, h) if is_alive else -1
 
 
 def _filled(t: Topology, sizes: Ints, fill: Callable[..., Any]) -> Table:
@@ -101,7 +136,7 @@ def _filled(t: Topology, sizes: Ints, fill: Callable[..., Any]) -> Table:
 @kernel
 def _fill_rings(t: Any, halfedges: Any) -> None:
     place = 0
-    for v in range(t.counts[0]):
+    for v in range(vertex_slots(t)):
         for h in outgoing(t, v):
             halfedges[place] = h
             place += 1
@@ -110,8 +145,8 @@ def _fill_rings(t: Any, halfedges: Any) -> None:
 @kernel
 def _fill_face_halfedges(t: Any, halfedges: Any) -> None:
     place = 0
-    for f in range(t.counts[2]):
-        if t.face_halfedge[f] >= 0:
+    for f in range(face_slots(t)):
+        if halfedge_of_face(t, f) >= 0:
             for h in face_halfedges(t, f):
                 halfedges[place] = h
                 place += 1

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from halfmesh._jit import kernel
 from halfmesh.core.circulation import face_halfedges
-from halfmesh.core.navigation import halfedge_of_face, next_of, origin_of, prev_of, twin_of
+from halfmesh.core.navigation import face_slots, halfedge_of_face, halfedge_slots, next_of, origin_of, prev_of, twin_of
 from halfmesh.geometry._passes import Floats, points_of, run
 from halfmesh.geometry._vectors import cross, difference, dot, length, point
 from halfmesh.geometry.kernels import angle_from, corner_turn, face_normal
@@ -52,8 +52,8 @@ def corner_angles(mesh: Mesh) -> Floats:
     0.0
     """
     t = mesh.topology
-    angles = np.zeros(len(t.next))
-    run(_corner_angles, len(t.face_halfedge), t, points_of(mesh), angles, scratch=_buffers)
+    angles = np.zeros(halfedge_slots(t))
+    run(_corner_angles, face_slots(t), t, points_of(mesh), angles, scratch=_buffers)
     return angles
 
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from halfmesh._jit import kernel
-from halfmesh.core.navigation import halfedge_of_face
+from halfmesh.core.navigation import face_slots, halfedge_of_face
 from halfmesh.geometry._passes import Floats, points_of, run
 from halfmesh.geometry.kernels import face_area, face_vector
 
@@ -67,7 +67,7 @@ def face_areas(mesh: Mesh) -> Floats:
     [1.0]
     """
     t = mesh.topology
-    n = len(t.face_halfedge)
+    n = face_slots(t)
     areas = np.empty(n)
     run(_face_areas, n, t, points_of(mesh), areas)
     return areas
@@ -101,7 +101,7 @@ def face_vectors(mesh: Mesh) -> Floats:
     [[0.0, 0.0, 1.0], [0.0, 0.0, 1.0]]
     """
     t = mesh.topology
-    n = len(t.face_halfedge)
+    n = face_slots(t)
     vectors = np.empty((n, 3))
     run(_face_vectors, n, t, points_of(mesh), vectors)
     return vectors

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from halfmesh._jit import kernel
-from halfmesh.core.navigation import halfedge_of_face
+from halfmesh.core.navigation import face_slots, halfedge_of_face
 from halfmesh.errors import PreconditionError
 from halfmesh.geometry._passes import Floats, points_of, run
 from halfmesh.geometry.areas import face_areas
@@ -47,7 +47,7 @@ def face_barycenters(mesh: Mesh) -> Floats:
     [[2.0, 3.0, 0.0]]
     """
     t = mesh.topology
-    n = len(t.face_halfedge)
+    n = face_slots(t)
     centers = np.empty((n, 3))
     run(_face_barycenters, n, t, points_of(mesh), centers)
     return centers
@@ -79,7 +79,7 @@ def face_centroids(mesh: Mesh) -> Floats:
     [[2.0, 2.818181818, 0.0]]
     """
     t = mesh.topology
-    n = len(t.face_halfedge)
+    n = face_slots(t)
     centers = np.empty((n, 3))
     run(_face_centroids, n, t, points_of(mesh), centers)
     return centers

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from halfmesh._jit import kernel
-from halfmesh.core.navigation import halfedge_of_edge, next_of
+from halfmesh.core.navigation import edge_slots, halfedge_of_edge, next_of
 from halfmesh.geometry._passes import Floats, points_of, run
 from halfmesh.geometry.kernels import edge_length, edge_vector
 
@@ -40,7 +40,7 @@ def edge_lengths(mesh: Mesh) -> Floats:
     [3.0, 4.0, 5.0]
     """
     t = mesh.topology
-    n = len(t.next) // 2
+    n = edge_slots(t)
     lengths = np.empty(n)
     run(_edge_lengths, n, t, points_of(mesh), lengths)
     return lengths
@@ -69,7 +69,7 @@ def edge_vectors(mesh: Mesh) -> Floats:
     [[3.0, 0.0, 0.0], [0.0, 4.0, 0.0], [-3.0, -4.0, 0.0]]
     """
     t = mesh.topology
-    n = len(t.next) // 2
+    n = edge_slots(t)
     vectors = np.empty((n, 3))
     run(_edge_vectors, n, t, points_of(mesh), vectors)
     return vectors

@@ -8,7 +8,16 @@ import numpy as np
 
 from halfmesh._jit import kernel
 from halfmesh.core.circulation import face_vertices, outgoing
-from halfmesh.core.navigation import face_of, face_slots, halfedge_of_face, next_of, origin_of, prev_of, target_of
+from halfmesh.core.navigation import (
+    face_of,
+    face_slots,
+    halfedge_of_face,
+    next_of,
+    origin_of,
+    prev_of,
+    target_of,
+    vertex_slots,
+)
 from halfmesh.geometry._passes import Floats, points_of, run
 from halfmesh.geometry._ring_normals import buffers, normals_by_angle
 from halfmesh.geometry._vectors import Vector, cross, difference, plus, point, scaled, unit
@@ -45,7 +54,7 @@ def face_normals(mesh: Mesh) -> Floats:
     [[0.0, 0.0, 1.0]]
     """
     t = mesh.topology
-    n = len(t.face_halfedge)
+    n = face_slots(t)
     normals = np.empty((n, 3))
     run(_face_normals, n, t, points_of(mesh), normals)
     return normals
@@ -92,7 +101,7 @@ def vertex_normals(mesh: Mesh, *, weights: Literal["angle", "area"] = "angle") -
     if weights not in ("angle", "area"):
         raise ValueError(f"weights must be 'angle' or 'area', not {weights!r}")
     t, points = mesh.topology, points_of(mesh)
-    n = len(t.vertex_halfedge)
+    n = vertex_slots(t)
     normals = np.empty((n, 3))
     if weights == "angle" and mesh.is_triangular:
         run(normals_by_angle, n, t, points, normals, scratch=buffers)

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from halfmesh._jit import kernel
-from halfmesh.core.navigation import halfedge_of_face
+from halfmesh.core.navigation import face_slots, halfedge_of_face
 from halfmesh.errors import PreconditionError
 from halfmesh.geometry._passes import points_of, run
 from halfmesh.geometry._vectors import dot
@@ -62,7 +62,7 @@ def volume(mesh: Mesh) -> float:
     if mesh.n_faces == 0:
         return 0.0
     t = mesh.topology
-    cones = np.empty(len(t.face_halfedge))
+    cones = np.empty(face_slots(t))
     run(_cones, len(cones), t, points_of(mesh) - bounding_box(mesh).mean(axis=0), cones)
     return float(cones.sum()) / 3
 
