@@ -358,7 +358,7 @@ def test_every_loop_over_a_circulator_in_the_library_is_written_out():
     for k in all_kernels:
         if str(k.__module__).startswith("halfmesh."):
             names = {n for n in k.py_func.__code__.co_names if isinstance(k.py_func.__globals__.get(n), Circulator)}
-            left = names & {*unrolled(k.py_func, lambda value: isinstance(value, Circulator)).__code__.co_names}
+            left = names & {*unrolled(k.py_func).__code__.co_names}
             assert not left, k
 
 

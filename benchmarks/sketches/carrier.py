@@ -17,7 +17,7 @@ import numpy as np
 import halfmesh as hm
 from benchmarks.data import load
 from halfmesh import outgoing, target_of, vertex_slots
-from halfmesh._jit.kernels import _circulate_halfedges
+from halfmesh._jit.circulators import _circulate_halfedges
 from halfmesh.core.circulation import ring_start
 from halfmesh.core.navigation import ccw_of
 

@@ -13,34 +13,25 @@ Numba structref; in interpreted code it is an ordinary object with the same attr
 
 ::
 
-    kernels       Kernel, Rule, Circulator: what is decorated
+    circulators . rules . room
+       |
+    kernels       what is decorated
        |
     carriers      structrefs that compiled code borrows; imports Numba, as does
        |
     compiler      dispatchers, the disk cache
        |
-    loops . fingerprint . arguments . threads . gears
+    loops . plain . fingerprint . arguments . threads . gears
 """
 
 from halfmesh._jit.arguments import Carrier, Views, array_of, lowered, view
 from halfmesh._jit.carriers import CarrierType, declare_carrier
+from halfmesh._jit.circulators import Circulator, circulator, declared
 from halfmesh._jit.compiler import apart, cache_folder
 from halfmesh._jit.gears import compiling_always
-from halfmesh._jit.kernels import (
-    Circulator,
-    Kernel,
-    Operation,
-    Rule,
-    all_kernels,
-    circulator,
-    declared,
-    inline_kernel,
-    kernel,
-    operation,
-    rule,
-    twofold,
-)
+from halfmesh._jit.kernels import Kernel, Operation, all_kernels, inline_kernel, kernel, operation, twofold
 from halfmesh._jit.room import filled, grown
+from halfmesh._jit.rules import Rule, rule
 from halfmesh._jit.threads import n_threads, parallel
 
 __all__ = [

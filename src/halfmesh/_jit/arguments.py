@@ -2,17 +2,37 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any, Protocol
 
 import numpy as np
 
 from halfmesh._jit import gears
 
-__all__ = ["Carrier", "Views", "announce", "array_of", "arrays", "interpretable", "lowered", "refresh", "view"]
+__all__ = [
+    "Carrier",
+    "Views",
+    "announce",
+    "array_of",
+    "arrays",
+    "interpretable",
+    "is_bound",
+    "lowered",
+    "refresh",
+    "view",
+]
 
 
 class Views:
     """The interpreted carrier: the arrays of a carrier as memoryviews, under the same names."""
+
+    rules: Mapping[Any, Any] = {}
+    """The rules that mean another kernel on this carrier, see `CarrierType.bind`."""
+
+
+def is_bound(form: Any) -> bool:
+    """Whether rules are bound anew for this argument, in its interpreted form."""
+    return isinstance(form, Views) and bool(form.rules)
 
 
 class Carrier(Protocol):

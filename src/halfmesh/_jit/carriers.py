@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import sys
+from collections.abc import Mapping
 from typing import Any
 
 from halfmesh._jit.compiler import Compilable, define_carriers, dispatcher, undefined
+from halfmesh._jit.fingerprint import fingerprints
 
 __all__ = ["CarrierType", "declare_carrier"]
 
@@ -15,8 +17,17 @@ class CarrierType:
 
     def __init__(self, name: str, fields: tuple[str, ...], growing: Compilable | None) -> None:
         self.name, self.fields, self.growing = name, fields, growing
+        self.rules: dict[Any, Any] = {}
         self._make: Any = None
         self._take: Any = None
+
+    def bind(self, rules: Mapping[Any, Any]) -> None:
+        """Have these rules mean other kernels wherever they are called with a carrier of this type.
+
+        To be said where the carrier is declared, before anything is compiled for it. In the interpreted gear it holds
+        for views whose class has the same `rules`.
+        """
+        self.rules.update(rules)
 
     def make(self, *arrays: Any) -> Any:
         """The compiled form of a carrier with these arrays; shares their memory."""
@@ -32,7 +43,20 @@ class CarrierType:
         from numba.core import types as nbtypes
         from numba.experimental import structref
 
+        # what the bound rules compile to is part of the type, and so of the disk cache's keys
+        stamp = fingerprints(kernel.py_func for kernel in self.rules.values())
+
         class Type(nbtypes.StructRef):  # type: ignore[misc, unused-ignore]
+            rules = self.rules
+
+            def __init__(self, fields: Any) -> None:
+                super().__init__(fields)
+                self.stamp = stamp
+
+            @property
+            def key(self) -> Any:
+                return super().key, self.stamp
+
             def preprocess_fields(self, fields: Any) -> Any:
                 return tuple((n, nbtypes.unliteral(t)) for n, t in fields)
 

@@ -140,6 +140,7 @@ def dispatcher(
     nogil: bool = True,
     from_python: bool = True,
     salt: str = "",
+    rule: Any = None,
 ) -> Any:
     """The Numba dispatcher of a function.
 
@@ -163,6 +164,8 @@ def dispatcher(
         Also make what Python needs to call it; for rules, which only kernels call, that would be half the code.
     salt : str
         What else the cache key depends on.
+    rule : Rule, optional
+        The rule that it is the dispatcher of: carriers may bind another kernel to it.
     """
     define_carriers()
     source = source or function
@@ -177,6 +180,8 @@ def dispatcher(
         no_cfunc_wrapper=True,  # for calls from C, which there are none of
     )(source)
     _forget_literals(made)
+    if rule is not None:
+        _follow_bindings(made, rule)
     cache = _disk_cache(source, fingerprint(function, salt, _own_source(), *_versions())) if keep else None
     if cache is not None:
         made._cache = cache
@@ -195,6 +200,25 @@ def _forget_literals(made: Any) -> None:
     made.get_call_template = get_call_template
 
 
+def _follow_bindings(made: Any, rule: Any) -> None:
+    """Have the dispatcher of a rule stand aside for the kernel that the type of its first argument binds to it."""
+    own_template, own_overload = made.get_call_template, made.get_overload
+
+    def bound(args: Any) -> Any:
+        kernel = getattr(args[0], "rules", {}).get(rule) if args else None
+        return None if kernel is None else kernel.compiled
+
+    def get_call_template(args: Any, kws: Any) -> Any:
+        other = bound(args)
+        return (own_template if other is None else other.get_call_template)(args, kws)
+
+    def get_overload(args: Any) -> Any:
+        other = bound(args)
+        return (own_overload if other is None else other.get_overload)(args)
+
+    made.get_call_template, made.get_overload = get_call_template, get_overload
+
+
 def entry_point(made: Any, args: tuple[Any, ...]) -> Any:
     """The machine code of a dispatcher for arguments of these types, None if it was not compiled for them.
 
@@ -210,9 +234,8 @@ def _own_source() -> str:
     import pathlib
 
     here = pathlib.Path(__file__).parent
-    return "".join(
-        (here / name).read_text("utf-8") for name in ("compiler.py", "carriers.py", "kernels.py", "loops.py")
-    )
+    names = ("compiler", "carriers", "kernels", "rules", "circulators", "loops")
+    return "".join((here / f"{name}.py").read_text("utf-8") for name in names)
 
 
 @functools.cache

@@ -13,9 +13,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterable, Iterator
 
-__all__ = ["fingerprint"]
+__all__ = ["fingerprint", "fingerprints"]
 
 
 def fingerprint(function: types.FunctionType, *salt: str) -> str:
@@ -29,6 +29,11 @@ def fingerprint(function: types.FunctionType, *salt: str) -> str:
         digest.update(part)
         digest.update(b"\0")
     return digest.hexdigest()
+
+
+def fingerprints(functions: Iterable[types.FunctionType]) -> str:
+    """One hash of several functions; empty for none."""
+    return " ".join(fingerprint(function) for function in functions)
 
 
 def _parts(function: types.FunctionType, seen: set[int]) -> Iterator[bytes]:

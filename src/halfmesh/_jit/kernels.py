@@ -1,33 +1,21 @@
-"""What is decorated: kernels, rules and circulators, and how each is run in each gear."""
+"""Kernels, and how each is run in each gear."""
 
 from __future__ import annotations
 
 import functools
 import types
-from collections.abc import Callable, Iterator
-from typing import Any, Generic, NoReturn, ParamSpec, TypeVar
+from collections.abc import Callable
+from typing import Any, Generic, ParamSpec, TypeVar
 
 import numpy as np
 
 from halfmesh._jit import gears
-from halfmesh._jit.arguments import Views, announce, arrays, interpretable, lowered, refresh, view
+from halfmesh._jit.arguments import Views, announce, interpretable, is_bound, lowered, refresh, view
 from halfmesh._jit.compiler import Compilable, dispatcher, entry_point
-from halfmesh._jit.loops import inlined, misspelled, unrolled
+from halfmesh._jit.loops import misspelled, unrolled
+from halfmesh._jit.plain import Interpretable, plain_form
 
-__all__ = [
-    "Circulator",
-    "Kernel",
-    "Operation",
-    "Rule",
-    "all_kernels",
-    "circulator",
-    "declared",
-    "inline_kernel",
-    "kernel",
-    "operation",
-    "rule",
-    "twofold",
-]
+__all__ = ["Kernel", "Operation", "all_kernels", "inline_kernel", "kernel", "operation", "positional", "twofold"]
 
 P = ParamSpec("P")
 R = TypeVar("R")
@@ -36,7 +24,7 @@ F = TypeVar("F", bound=Callable[..., Any])
 all_kernels: list[Kernel[Any, Any]] = []
 
 
-class Kernel(Compilable, Generic[P, R]):
+class Kernel(Compilable, Interpretable, Generic[P, R]):
     """A function of the subset of Python that Numba compiles; see the table at the top of this module."""
 
     __name__: str
@@ -51,7 +39,7 @@ class Kernel(Compilable, Generic[P, R]):
 
     def __call__(self, *args: P.args, **kwargs: P.kwargs) -> R:
         if kwargs:
-            args = _positional(self.py_func, args, kwargs)  # type: ignore[assignment]
+            args = positional(self.py_func, args, kwargs)  # type: ignore[assignment]
         if gears.interpret_only or (args and isinstance(args[0], Views)):
             return self.interpreted(*args)  # type: ignore[call-arg]
         return self._compiled_call(*args)
@@ -91,25 +79,30 @@ class Kernel(Compilable, Generic[P, R]):
 
     @functools.cached_property
     def _checked(self) -> Any:
-        source = unrolled(self.py_func, _is_circulator)
+        source = unrolled(self.py_func)
         return dispatcher(self.py_func, source=source, keep=False, bounds=True)
 
     @functools.cached_property
     def compiled(self) -> Any:
         """The Numba dispatcher of this kernel (compiled at its first call, or read from the disk cache)."""
-        return dispatcher(self.py_func, source=unrolled(self.py_func, _is_circulator))
+        return dispatcher(self.py_func, source=unrolled(self.py_func))
 
     @functools.cached_property
     def plain(self) -> Callable[P, R]:
         """The bare Python function; the kernels that it calls by name are bare as well."""
-        return _plain(self.py_func)  # type: ignore[no-any-return]
+        return plain_form(self.py_func)  # type: ignore[no-any-return]
+
+    @functools.cached_property
+    def bound(self) -> Callable[P, R]:
+        """The same for carriers that bind rules anew: every rule asks its carrier what it means."""
+        return plain_form(self.py_func, follow_bindings=True)  # type: ignore[no-any-return]
 
     def interpreted(self, *args: P.args, **kwargs: P.kwargs) -> R:
         """Run in plain Python, on the same objects: set a breakpoint, print, step."""
         return self._interpret([interpretable(a) for a in args], args, kwargs)
 
     def _interpret(self, forms: list[Any], args: tuple[Any, ...], kwargs: dict[str, Any] | None = None) -> R:
-        plain: Any = self.plain
+        plain: Any = self.bound if any(map(is_bound, forms)) else self.plain
         announce(args)
         try:
             return plain(*forms, **(kwargs or {}))  # type: ignore[no-any-return]
@@ -173,27 +166,7 @@ class Operation(Kernel[P, R]):
     @functools.cached_property
     def compiled(self) -> Any:
         """The dispatcher; 30 ns of a call of 110 would go into giving the GIL away and taking it back."""
-        return dispatcher(self.py_func, source=unrolled(self.py_func, _is_circulator), nogil=False, salt="operation")
-
-
-class Rule(Kernel[P, R]):
-    """A one-line kernel ``rule(t, h)``; called from Python it is interpreted for an int, vectorised for an array."""
-
-    @functools.cached_property
-    def compiled(self) -> Any:
-        """The dispatcher; its column reads skip Numba's test for negative indices, 8-13 % of a one-ring loop."""
-        return dispatcher(self.py_func, unchecked=True, from_python=False)
-
-    def written_into(self, function: F, name: str) -> F:
-        """The function with this rule's one expression in place of its calls ``name(t, i)``: saves a Python call."""
-        return inlined(function, name, self.py_func)  # type: ignore[arg-type,return-value]
-
-    def __call__(self, *args: P.args, **kwargs: P.kwargs) -> R:
-        t, *rest = _positional(self.py_func, args, kwargs) if kwargs else args
-        plain: Any = self.plain
-        if any(isinstance(x, np.ndarray) for x in rest):
-            return plain(arrays(t), *rest)  # type: ignore[no-any-return]
-        return plain(interpretable(t), *rest)  # type: ignore[no-any-return]
+        return dispatcher(self.py_func, source=unrolled(self.py_func), nogil=False, salt="operation")
 
 
 def kernel(function: Callable[P, R]) -> Kernel[P, R]:
@@ -258,151 +231,7 @@ def operation(function: Callable[P, R]) -> Operation[P, R]:
     return Operation(function)
 
 
-def rule(function: Callable[P, R]) -> Rule[P, R]:
-    """Declare a navigation rule: one line, written once, for every gear."""
-    return Rule(function)
-
-
-# -- circulators -------------------------------------------------------------------------------------------------------
-
-
-class Circulator(Compilable, Generic[P, R]):
-    """A loop over the elements around something: ``for h in outgoing(t, v)``, in any gear.
-
-    Parameters
-    ----------
-    function : callable
-        Carries the name, the parameters and the documentation; its body is never run.
-    start, step : Kernel
-        ``start(t, x)`` is the first halfedge, or -1 for none; ``step(t, h)`` the one after `h`. The loop ends when
-        the first comes round again.
-    value : Kernel or None
-        ``value(t, h)`` is what the loop yields; the halfedge itself by default.
-    skips : bool
-        Leave out values of -1 (a face that isn't there).
-    """
-
-    __name__: str
-    __qualname__: str
-
-    def __init__(self, function: Callable[P, R], start: Any, step: Any, value: Any, skips: bool) -> None:
-        functools.update_wrapper(self, function)
-        self.start, self.step, self.value, self.skips = start, step, value, skips
-
-    def __call__(self, *args: P.args, **kwargs: P.kwargs) -> R:
-        """Iterate in plain Python; the walk is not bounded, so hand it a valid mesh."""
-        t, x = args
-        return self._generator(True)(interpretable(t), x)  # type: ignore[no-any-return]
-
-    @functools.cached_property
-    def compiled(self) -> Any:
-        """A Numba generator: what compiled code falls back on where the loop could not be written out."""
-        return dispatcher(self._generator(False), keep=False)  # Numba can't link a generator from its cache
-
-    @functools.cached_property
-    def plain(self) -> Any:
-        """The bare generator function over bare rules."""
-        return self._generator(True)
-
-    def _generator(self, plain: bool) -> Any:
-        rules = {"START": self.start, "STEP": self.step, "VALUE": self.value}
-        if plain:
-            rules = {name: k and k.plain for name, k in rules.items()}
-        template = _circulate_values if self.value is not None else _circulate_halfedges
-        template = _circulate_present_values if self.skips else template
-        made = types.FunctionType(template.__code__, {**template.__globals__, **rules}, self.__name__)
-        made.__qualname__, made.__module__ = self.__qualname__, self.__module__
-        return made
-
-    def __kernel_sources__(self) -> tuple[types.FunctionType, ...]:
-        return tuple(k.py_func for k in (self.start, self.step, self.value) if k is not None)
-
-
-START: Any = None  # the templates below find these three in a scope made for each circulator
-STEP: Any = None
-VALUE: Any = None
-
-
-def _circulate_halfedges(t: Any, x: int) -> Iterator[int]:
-    end = START(t, x)
-    at = end
-    more = at >= 0
-    while more:
-        h = at
-        at = STEP(t, at)
-        more = at != end
-        yield h
-
-
-def _circulate_values(t: Any, x: int) -> Iterator[int]:
-    end = START(t, x)
-    at = end
-    more = at >= 0
-    while more:
-        value = VALUE(t, at)
-        at = STEP(t, at)
-        more = at != end
-        yield value
-
-
-def _circulate_present_values(t: Any, x: int) -> Iterator[int]:
-    end = START(t, x)
-    at = end
-    more = at >= 0
-    while more:
-        value = VALUE(t, at)
-        at = STEP(t, at)
-        more = at != end
-        if value >= 0:
-            yield value
-
-
-def circulator(
-    *, start: Any, step: Any, value: Any = None, skips: bool = False
-) -> Callable[[Callable[P, R]], Circulator[P, R]]:
-    """Declare a circulator by its three rules; the decorated function gives name, parameters and documentation."""
-    return lambda function: Circulator(function, start, step, value, skips)
-
-
-def declared() -> NoReturn:
-    """The body of what is declared by its rules and documented by its name: it is never run."""
-    raise AssertionError("the rules of a declaration are run, not its body")
-
-
-def _is_circulator(value: Any) -> bool:
-    return isinstance(value, Circulator)
-
-
-# -- plain functions ---------------------------------------------------------------------------------------------------
-
-_plain_of: dict[types.FunctionType, types.FunctionType] = {}
-
-
-def _plain(function: types.FunctionType) -> Any:
-    if function in _plain_of:
-        return _plain_of[function]
-    scope = dict(function.__globals__)
-    closure = tuple(types.CellType() for _ in function.__closure__ or ())
-    made = types.FunctionType(function.__code__, scope, function.__name__, function.__defaults__, closure or None)
-    made.__kwdefaults__, made.__qualname__, made.__module__ = (
-        function.__kwdefaults__,
-        function.__qualname__,
-        function.__module__,
-    )
-    _plain_of[function] = made  # before the kernels it calls: it may call itself
-    for cell, original in zip(closure, function.__closure__ or (), strict=True):
-        cell.cell_contents = _bare(original.cell_contents)
-    for name in function.__code__.co_names:
-        if name in scope:
-            scope[name] = _bare(scope[name])
-    return made
-
-
-def _bare(value: Any) -> Any:
-    return value.plain if isinstance(value, Kernel | Circulator) else value
-
-
-def _positional(function: types.FunctionType, args: tuple[Any, ...], kwargs: dict[str, Any]) -> tuple[Any, ...]:
+def positional(function: types.FunctionType, args: tuple[Any, ...], kwargs: dict[str, Any]) -> tuple[Any, ...]:
     import inspect
 
     bound = inspect.signature(function).bind(*args, **kwargs)

@@ -27,13 +27,13 @@ import difflib
 import inspect
 import textwrap
 import types
-from typing import Any, Protocol, TypeGuard
+from typing import Any
 
-__all__ = ["LoopRule", "inlined", "misspelled", "unrolled", "with_column_reads"]
+__all__ = ["Loop", "inlined", "misspelled", "unrolled", "with_column_reads"]
 
 
-class LoopRule(Protocol):
-    """What the rewriter needs to know of a circulator."""
+class Loop:
+    """What is unrolled: a loop that is declared by its rules, see `circulators`."""
 
     start: Any
     step: Any
@@ -41,14 +41,14 @@ class LoopRule(Protocol):
     skips: bool
 
 
-def unrolled(function: types.FunctionType, is_circulator: Any) -> types.FunctionType:
+def unrolled(function: types.FunctionType) -> types.FunctionType:
     """The function with its circulator loops written out; the function itself where there is none (or no source)."""
-    if not _may_circulate(function, is_circulator):
+    if not _may_circulate(function):
         return function
     tree = _parsed(function)
     if tree is None:
         return function
-    rewriter = _Unroller(function, is_circulator)
+    rewriter = _Unroller(function)
     rewriter.visit(tree)
     code = _compiled(tree, function)
     if code is None or not rewriter.found:
@@ -121,8 +121,8 @@ class _Substitution(ast.NodeTransformer):
         return copy.deepcopy(self.values[node.id]) if node.id in self.values else node
 
 
-def _may_circulate(function: types.FunctionType, is_circulator: Any) -> bool:
-    return any(is_circulator(value) for value in _reachable(function))
+def _may_circulate(function: types.FunctionType) -> bool:
+    return any(isinstance(value, Loop) for value in _reachable(function))
 
 
 def _reachable(function: types.FunctionType) -> list[Any]:
@@ -195,11 +195,10 @@ def _assembled(function: types.FunctionType, code: types.CodeType, scope: dict[s
 
 
 class _Unroller(ast.NodeTransformer):
-    def __init__(self, function: types.FunctionType, is_circulator: Any) -> None:
+    def __init__(self, function: types.FunctionType) -> None:
         self.scope = dict(inspect.getclosurevars(function).nonlocals)
         self.globals = function.__globals__
         self.locals = {*function.__code__.co_varnames}
-        self.is_circulator = is_circulator
         self.rules: dict[str, Any] = {}
         self.found = 0
 
@@ -216,14 +215,11 @@ class _Unroller(ast.NodeTransformer):
         self.rules[f"{tag}_value"] = rule.value
         return self._while(node, node.iter.args, tag, rule)
 
-    def _rule(self, call: ast.expr) -> LoopRule | None:
+    def _rule(self, call: ast.expr) -> Loop | None:
         if not isinstance(call, ast.Call) or call.keywords or len(call.args) != 2:
             return None
         value = self._resolved(call.func)
-        return value if self._circulates(value) else None
-
-    def _circulates(self, value: Any) -> TypeGuard[LoopRule]:
-        return bool(self.is_circulator(value))
+        return value if isinstance(value, Loop) else None
 
     def _resolved(self, node: ast.expr) -> Any:
         if isinstance(node, ast.Name):
@@ -234,7 +230,7 @@ class _Unroller(ast.NodeTransformer):
             return getattr(self._resolved(node.value), node.attr, None)
         return None
 
-    def _while(self, node: ast.For, arguments: list[ast.expr], tag: str, rule: LoopRule) -> list[ast.stmt]:
+    def _while(self, node: ast.For, arguments: list[ast.expr], tag: str, rule: Loop) -> list[ast.stmt]:
         value = f"{tag}_value({tag}_t, {tag}_at)" if rule.value is not None else f"{tag}_at"
         skip = f"if {tag}_x < 0:\n    continue\n" if rule.skips else ""
         head = _placed(
