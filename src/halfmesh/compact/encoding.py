@@ -1,0 +1,336 @@
+"""From columns to parentheses: choose a spanning tree, walk around it, write down what is met.
+
+In every component the tree is grown breadth first, after its boundary loops: a loop is walked along as soon as it is
+reached, so that the exterior halfedge of nearly every boundary vertex is the one after its opening parenthesis. What
+is left of the edges is a spanning tree of the faces and holes, as every component can be drawn on a sphere.
+
+The tour follows the tree with the left hand: from `h` on to ``next(h)`` if `h` is of the tree, else, over `h`, to
+``cw(h)``. So it comes past every halfedge once.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from halfmesh._jit import kernel
+from halfmesh.compact import navigation as here
+from halfmesh.compact.directory import add_directory, n_words
+from halfmesh.compact.parentheses import is_opening, is_tree, opens_before
+from halfmesh.compact.topology import N_COMPONENTS, N_ISOLATED, N_OPEN, N_SYMBOLS, Arrays, CompactTopology
+from halfmesh.compact.words import FULL, bit_of
+from halfmesh.core.compaction import Maps
+from halfmesh.core.counting import components
+from halfmesh.core.navigation import (
+    cw_of,
+    edge_of,
+    edge_slots,
+    face_of,
+    face_slots,
+    halfedge_of_vertex,
+    halfedge_slots,
+    is_exterior,
+    is_isolated,
+    next_of,
+    origin_of,
+    target_of,
+    twin_of,
+    vertex_slots,
+)
+from halfmesh.core.topology import N_DEAD_EDGES, N_DEAD_FACES, N_DEAD_VERTICES, N_EXTERIOR, REVISION, Topology
+from halfmesh.errors import PreconditionError
+
+__all__ = ["Encoded", "compacted", "maps_of"]
+
+Ints = NDArray[np.int32]
+
+TREE_EDGE, SEEN_EDGE = 1, 2  # two bits for each edge
+
+
+@dataclass(frozen=True)
+class Encoded:
+    """What an encoding gives: the compact mesh, and where its elements come from.
+
+    Attributes
+    ----------
+    topology : CompactTopology
+    vertices : ndarray of int32
+        The old index of every new vertex: ``points[vertices]`` are the points of the compact mesh.
+    roots : ndarray of int32
+        The old index of the first halfedge of every component; what `maps_of` begins with.
+    """
+
+    topology: CompactTopology
+    vertices: Ints
+    roots: Ints
+
+
+def compacted(t: Topology) -> Encoded:
+    """Encode a mesh of which every component can be drawn on a sphere; what was deleted is left out.
+
+    Raises
+    ------
+    PreconditionError
+        If a component has handles; it says which one and how many.
+
+    Notes
+    -----
+    O(n). It takes, besides the result, 4 bytes per vertex and two bits per edge.
+    """
+    counts = t.__arrays__().counts
+    n = int(counts[1] - counts[N_DEAD_EDGES]) * 2
+    n_loops = _count_loops.at(n)(t, _bits_for(2 * int(counts[1]))) if counts[N_EXTERIOR] else 0
+    n_vertices = int(counts[0] - counts[N_DEAD_VERTICES])
+    states, late = np.zeros(int(counts[1]) // 4 + 1, np.uint8), _bits_for(int(counts[0]))
+    vertices, out = np.empty(n_vertices, np.int32), np.zeros(4, np.int64)
+    _plant.at(n)(t, states, _bits_for(int(counts[0])), late, np.empty(n_vertices, np.int32), vertices, out)
+    n_components, n_open = int(out[0]), int(out[1])
+    a = Arrays()
+    roots = vertices[:n_components].copy()
+    a.bits = _aligned(n_words(n))
+    a.starts, a.holes = np.empty(n_components + 1, np.int32), np.empty(n_loops, np.int32)
+    _tour.at(n)(t, roots, states, a.bits, vertices, a.starts, a.holes, n_loops > n_open, out)
+    n_nodes, n_dual_nodes, n_holes = int(out[0]), int(out[1]), int(out[2])
+    if n_dual_nodes != counts[2] - counts[N_DEAD_FACES] + n_loops:
+        raise _too_many_handles(t)
+    a.holes = a.holes[:n_holes].copy()
+    a.sizes = np.array([n, n_components, n_open, n_vertices - n_nodes], np.int64)
+    a.counts = counts.copy()
+    a.counts[:3] = n_vertices, n // 2, counts[2] - counts[N_DEAD_FACES]
+    a.counts[3:6] = 0
+    a.counts[N_EXTERIOR] = counts[N_EXTERIOR]
+    a.counts[REVISION:] = 0
+    add_directory(a, n, (n_nodes - n_components, n_dual_nodes - n_components))
+    a.gap_vertices = np.flatnonzero(late[vertices >> 3] >> (vertices & 7) & 1).astype(np.int32)
+    a.gap_halfedges = np.empty(0, np.int32)
+    gaps, a.gap_vertices = a.gap_vertices, np.empty(0, np.int32)
+    halfedges = np.empty(len(gaps), np.int32)
+    _find_gaps.at(len(gaps))(CompactTopology(a), gaps, halfedges)
+    a.gap_vertices, a.gap_halfedges = gaps, halfedges
+    return Encoded(CompactTopology(a), vertices, roots)
+
+
+def _bits_for(n: int) -> NDArray[np.uint8]:
+    return np.zeros(n // 8 + 1, np.uint8)
+
+
+def _aligned(n: int) -> NDArray[np.int64]:
+    """Words that begin with a cache line, and stand for '('."""
+    memory = np.empty(n + 8, np.int64)
+    skip = -(memory.ctypes.data // 8) % 8
+    words = memory[skip : skip + n]
+    words[:] = FULL
+    return words
+
+
+def _too_many_handles(t: Topology) -> PreconditionError:
+    found = components(t)
+    c = int(np.flatnonzero(found.genus > 0)[0])
+    v = int(np.flatnonzero(found.vertex_component == c)[0])
+    n = int((found.genus > 0).sum())
+    others = f" (and {n - 1} more)" if n > 1 else ""
+    return PreconditionError(
+        f"component {c}, that of vertex {v}, has genus {int(found.genus[c])}{others}: only what can be drawn on a sphere "
+        "has a compact form; cut it along its handles, or keep it as it is"
+    )
+
+
+@kernel
+def _count_loops(t: Any, seen: Any) -> int:
+    """How many boundary loops there are."""
+    n = 0
+    for start in range(halfedge_slots(t)):
+        h = start
+        if is_exterior(t, h) and next_of(t, h) >= 0 and (seen[h >> 3] >> (h & 7)) & 1 == 0:
+            n += 1
+            while (seen[h >> 3] >> (h & 7)) & 1 == 0:
+                seen[h >> 3] |= 1 << (h & 7)
+                h = next_of(t, h)
+    return n
+
+
+# -- the tree ------------------------------------------------------------------------------------------------------------
+
+
+@kernel
+def _plant(t: Any, states: Any, seen: Any, late: Any, queue: Any, roots: Any, out: Any) -> None:
+    """Mark the edges of a spanning tree of every component, those with a boundary first; list their first halfedges.
+
+    `late` marks the vertices that touch a gap and were not reached along it.
+    """
+    n_roots = 0
+    if t.counts[N_EXTERIOR] > 0:
+        for v in range(vertex_slots(t)):
+            if (seen[v >> 3] >> (v & 7)) & 1 == 0:
+                h = halfedge_of_vertex(t, v)
+                if h >= 0 and is_exterior(t, h):
+                    roots[n_roots] = h
+                    n_roots += 1
+                    _grow(t, h, states, seen, late, queue)
+    out[1] = n_roots
+    for v in range(vertex_slots(t)):
+        if (seen[v >> 3] >> (v & 7)) & 1 == 0:
+            h = halfedge_of_vertex(t, v)
+            if h >= 0:
+                roots[n_roots] = h
+                n_roots += 1
+                _grow(t, h, states, seen, late, queue)
+    out[0] = n_roots
+
+
+@kernel
+def _grow(t: Any, root: int, states: Any, seen: Any, late: Any, queue: Any) -> None:
+    v = origin_of(t, root)
+    seen[v >> 3] |= 1 << (v & 7)
+    queue[0] = root
+    n = 1
+    if is_exterior(t, root):
+        n = _follow(t, root, states, seen, queue, n)
+    i = 0
+    while i < n:
+        start = queue[i]
+        i += 1
+        h = start
+        while True:
+            v = target_of(t, h)
+            if (seen[v >> 3] >> (v & 7)) & 1 == 0:
+                n = _add(t, h, v, states, seen, queue, n)
+                if t.counts[N_EXTERIOR] > 0:
+                    g = halfedge_of_vertex(t, v)
+                    if is_exterior(t, g):
+                        if not is_exterior(t, h):
+                            late[v >> 3] |= 1 << (v & 7)
+                        n = _follow(t, g, states, seen, queue, n)
+            h = cw_of(t, h)
+            if h == start:
+                break
+
+
+@kernel
+def _follow(t: Any, start: int, states: Any, seen: Any, queue: Any, n: int) -> int:
+    """Add the vertices along a boundary loop."""
+    h = start
+    while True:
+        v = target_of(t, h)
+        if (seen[v >> 3] >> (v & 7)) & 1 == 0:
+            n = _add(t, h, v, states, seen, queue, n)
+        h = next_of(t, h)
+        if h == start:
+            return n
+
+
+@kernel
+def _add(t: Any, h: int, v: int, states: Any, seen: Any, queue: Any, n: int) -> int:
+    seen[v >> 3] |= 1 << (v & 7)
+    e = edge_of(t, h)
+    states[e >> 2] |= TREE_EDGE << (2 * (e & 3))
+    queue[n] = next_of(t, h)
+    return n + 1
+
+
+# -- the tour ------------------------------------------------------------------------------------------------------------
+
+
+@kernel
+def _tour(
+    t: Any, roots: Any, states: Any, bits: Any, vertices: Any, starts: Any, holes: Any, has_holes: bool, out: Any
+) -> None:
+    """Write the symbols; list the old vertices in the new order, and the nodes that are holes and not roots."""
+    n_components = len(roots)
+    i, word, n_nodes, n_dual_nodes, n_holes = 0, 0, n_components, n_components, 0
+    for c in range(n_components):
+        starts[c] = i
+        root = roots[c]
+        vertices[c] = origin_of(t, root)
+        h = root
+        while True:
+            e = edge_of(t, h)
+            shift = 2 * (e & 3)
+            state = (states[e >> 2] >> shift) & 3
+            bit = bit_of(i)
+            word |= (state & TREE_EDGE) << bit
+            if state < SEEN_EDGE:
+                states[e >> 2] |= SEEN_EDGE << shift
+                word |= 16 << bit if bit < 59 else -1 << 63  # two ways to the same bit: it is the sign
+                if state & TREE_EDGE:
+                    vertices[n_nodes] = target_of(t, h)
+                    n_nodes += 1
+                else:
+                    if has_holes and is_exterior(t, twin_of(t, h)) and n_holes < len(holes):
+                        holes[n_holes] = n_dual_nodes
+                        n_holes += 1
+                    n_dual_nodes += 1
+            i += 1
+            if i & 31 == 0:
+                bits[(i >> 5) - 1] = word
+                word = 0
+            h = next_of(t, h) if state & TREE_EDGE else cw_of(t, h)
+            if h == root:
+                break
+    starts[n_components] = i
+    if i & 31 != 0:
+        for k in range(i, (i | 31) + 1):
+            bit = bit_of(k)
+            word |= 1 << bit
+            word |= 16 << bit if bit < 59 else -1 << 63
+        bits[i >> 5] = word
+    out[0], out[1], out[2] = n_nodes, n_dual_nodes, n_holes
+    for v in range(vertex_slots(t)):
+        if n_nodes == len(vertices):
+            break
+        if is_isolated(t, v):
+            vertices[n_nodes] = v
+            n_nodes += 1
+
+
+@kernel
+def _find_gaps(t: Any, gaps: Any, halfedges: Any) -> None:
+    """The exterior halfedge of each of these vertices."""
+    for k in range(len(gaps)):
+        h = halfedge_of_vertex(t, gaps[k])
+        while not is_exterior(t, h):
+            h = cw_of(t, h)
+        halfedges[k] = h
+
+
+# -- the maps ------------------------------------------------------------------------------------------------------------
+
+
+def maps_of(t: Topology, encoded: Encoded) -> Maps:
+    """The new index of every old element: -1 for what was deleted. Complexity: O(n)."""
+    counts = t.__arrays__().counts
+    vertices, edges, faces = (np.full(int(n), -1, np.int32) for n in counts[:3])
+    halfedges = np.full(2 * int(counts[1]), -1, np.int32)
+    vertices[encoded.vertices] = np.arange(len(encoded.vertices), dtype=np.int32)
+    compact = encoded.topology
+    _number.at(len(halfedges))(t, compact, encoded.roots, halfedges, edges, faces)
+    return Maps(vertices, halfedges, edges, faces)
+
+
+@kernel
+def _number(t: Any, compact: Any, roots: Any, halfedges: Any, edges: Any, faces: Any) -> None:
+    """Walk the tour again."""
+    i, n_edges, n_faces = 0, 0, 0
+    for c in range(len(roots)):
+        if not is_exterior(t, roots[c]):
+            faces[face_of(t, roots[c])] = n_faces
+            n_faces += 1
+    for c in range(len(roots)):
+        h = roots[c]
+        while True:
+            halfedges[h] = i
+            tree = is_tree(compact, i)
+            if is_opening(compact, i):
+                edges[edge_of(t, h)] = n_edges
+                n_edges += 1
+                twin = twin_of(t, h)
+                if not tree and not is_exterior(t, twin):
+                    faces[face_of(t, twin)] = n_faces
+                    n_faces += 1
+            i += 1
+            h = next_of(t, h) if tree else cw_of(t, h)
+            if h == roots[c]:
+                break
