@@ -153,13 +153,13 @@ def halfedge_of_vertex(t: Any, v: Any) -> Any:
         i = _place(t.gap_vertices, v)
         if i < len(t.gap_vertices) and t.gap_vertices[i] == v:
             return t.gap_halfedges[i]
-    return _first_of_node(t, v, 0)
+    return first_of_node(t, v, 0)
 
 
 @rule
 def halfedge_of_face(t: Any, f: Any) -> Any:
     """A halfedge of face `f`."""
-    return _first_of_node(t, f + t.sizes[N_OPEN] + _holes_before_face(t, f), 1)
+    return first_of_node(t, f + t.sizes[N_OPEN] + _holes_before_face(t, f), 1)
 
 
 @rule
@@ -238,7 +238,7 @@ def _face(t: Any, i: Any, h: Any) -> Any:
 
 
 @rule
-def _first_of_node(t: Any, node: Any, kind: Any) -> Any:
+def first_of_node(t: Any, node: Any, kind: Any) -> Any:
     """The halfedge after the parenthesis that opens a node."""
     if node < t.sizes[N_COMPONENTS]:
         return t.starts[node]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from typing import Any
 
 import numpy as np
@@ -115,6 +116,25 @@ class CompactTopology:
     def bits_per_edge(self) -> float:
         """All that is held, by edges; Turan's bound for the symbols alone is 4."""
         return 8 * self.nbytes / max(1, self.n_edges)
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Write it to a file of its own format, see `files`; the file is there whole or not at all."""
+        from halfmesh.compact.files import write
+
+        write(path, self)
+
+    @staticmethod
+    def load(path: str | os.PathLike[str]) -> CompactTopology:
+        """Map a file into memory and check it, see `files`.
+
+        Raises
+        ------
+        FormatError
+            If it is not a compact mesh, whole and undamaged.
+        """
+        from halfmesh.compact.files import read
+
+        return read(path)[0]
 
     def __repr__(self) -> str:
         return f"<CompactTopology: {self.n_vertices} vertices, {self.n_edges} edges, {self.n_faces} faces>"
