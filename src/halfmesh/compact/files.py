@@ -13,7 +13,7 @@ bytes   what
         only), its first byte, and eight zeros
 ======  ====================================================================================================
 
-Each array begins at a multiple of 64 bytes. Which arrays a compact mesh has says `topology`; others may stand in the
+Each array begins at a multiple of 64 bytes, and zeros follow it up to one. Which arrays a compact mesh has says `topology`; others may stand in the
 same file, with names of their own.
 """
 
@@ -151,7 +151,7 @@ def _array(memory: NDArray[np.uint8], row: Any, place: str, at: int) -> tuple[st
     dtype = np.dtype(kind)
     n, columns, offset = int(row["rows"]), int(row["columns"]), int(row["offset"])
     size = n * max(columns, 1) * dtype.itemsize
-    if n < 0 or columns < 0 or offset < 0 or offset % ALIGNMENT or offset + size > len(memory):
+    if n < 0 or columns < 0 or offset < 0 or offset % ALIGNMENT or offset + _aligned(size) > len(memory):
         raise FormatError(
             f"array {name!r} of {n} rows does not lie within the {len(memory)} bytes of the file: it was cut short, or "
             "is damaged",
