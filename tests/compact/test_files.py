@@ -40,7 +40,9 @@ def test_there_and_back(specimen, tmp_path):
     again = CompactTopology.load(tmp_path / "mesh.hmc")
     for name in FIELDS:
         assert np.array_equal(getattr(again.__arrays__(), name), getattr(compact.__arrays__(), name)), name
-    assert [next_of(again, h) for h in range(again.n_halfedges)] == [next_of(compact, h) for h in range(2 * compact.n_edges)]
+    assert [next_of(again, h) for h in range(again.n_halfedges)] == [
+        next_of(compact, h) for h in range(2 * compact.n_edges)
+    ]
 
 
 def test_arrays_are_mapped_and_begin_with_a_cache_line(path):
