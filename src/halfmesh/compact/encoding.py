@@ -16,8 +16,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from halfmesh._jit import kernel
-from halfmesh.compact import navigation as here
+from halfmesh._jit import kernel, rule
 from halfmesh.compact.directory import add_directory, n_words
 from halfmesh.compact.parentheses import is_opening, is_tree, opens_before
 from halfmesh.compact.topology import N_COMPONENTS, N_ISOLATED, N_OPEN, N_SYMBOLS, Arrays, CompactTopology
@@ -82,11 +81,12 @@ def compacted(t: Topology) -> Encoded:
     """
     counts = t.__arrays__().counts
     n = int(counts[1] - counts[N_DEAD_EDGES]) * 2
-    n_loops = _count_loops.at(n)(t, _bits_for(2 * int(counts[1]))) if counts[N_EXTERIOR] else 0
+    seen, touches, late = (_bits_for(int(counts[0])) for _ in range(3))
+    n_loops = _find_loops.at(n)(t, _bits_for(2 * int(counts[1])), touches) if counts[N_EXTERIOR] else 0
     n_vertices = int(counts[0] - counts[N_DEAD_VERTICES])
-    states, late = np.zeros(int(counts[1]) // 4 + 1, np.uint8), _bits_for(int(counts[0]))
+    states = np.zeros(int(counts[1]) // 4 + 1, np.uint8)
     vertices, out = np.empty(n_vertices, np.int32), np.zeros(4, np.int64)
-    _plant.at(n)(t, states, _bits_for(int(counts[0])), late, np.empty(n_vertices, np.int32), vertices, out)
+    _plant.at(n)(t, states, seen, touches, late, np.empty(n_vertices, np.int32), vertices, out)
     n_components, n_open = int(out[0]), int(out[1])
     a = Arrays()
     roots = vertices[:n_components].copy()
@@ -138,57 +138,68 @@ def _too_many_handles(t: Topology) -> PreconditionError:
     )
 
 
+# -- bits ----------------------------------------------------------------------------------------------------------------
+
+
+@rule
+def _has(bits: Any, i: Any) -> Any:
+    return (bits[i >> 3] >> (i & 7)) & 1
+
+
 @kernel
-def _count_loops(t: Any, seen: Any) -> int:
-    """How many boundary loops there are."""
-    n = 0
-    for start in range(halfedge_slots(t)):
-        h = start
-        if is_exterior(t, h) and next_of(t, h) >= 0 and (seen[h >> 3] >> (h & 7)) & 1 == 0:
-            n += 1
-            while (seen[h >> 3] >> (h & 7)) & 1 == 0:
-                seen[h >> 3] |= 1 << (h & 7)
-                h = next_of(t, h)
-    return n
+def _put(bits: Any, i: int) -> None:
+    bits[i >> 3] |= 1 << (i & 7)
 
 
 # -- the tree ------------------------------------------------------------------------------------------------------------
 
 
 @kernel
-def _plant(t: Any, states: Any, seen: Any, late: Any, queue: Any, roots: Any, out: Any) -> None:
-    """Mark the edges of a spanning tree of every component, those with a boundary first; list their first halfedges.
-
-    `late` marks the vertices that touch a gap and were not reached along it.
-    """
-    n_roots = 0
-    if t.counts[N_EXTERIOR] > 0:
-        for v in range(vertex_slots(t)):
-            if (seen[v >> 3] >> (v & 7)) & 1 == 0:
-                h = halfedge_of_vertex(t, v)
-                if h >= 0 and is_exterior(t, h):
-                    roots[n_roots] = h
-                    n_roots += 1
-                    _grow(t, h, states, seen, late, queue)
-    out[1] = n_roots
-    for v in range(vertex_slots(t)):
-        if (seen[v >> 3] >> (v & 7)) & 1 == 0:
-            h = halfedge_of_vertex(t, v)
-            if h >= 0:
-                roots[n_roots] = h
-                n_roots += 1
-                _grow(t, h, states, seen, late, queue)
-    out[0] = n_roots
+def _find_loops(t: Any, seen: Any, touches: Any) -> int:
+    """How many boundary loops there are; mark the vertices along them."""
+    n = 0
+    for start in range(halfedge_slots(t)):
+        if is_exterior(t, start) and next_of(t, start) >= 0 and not _has(seen, start):
+            n += 1
+            h = start
+            while not _has(seen, h):
+                _put(seen, h)
+                _put(touches, origin_of(t, h))
+                h = next_of(t, h)
+    return n
 
 
 @kernel
-def _grow(t: Any, root: int, states: Any, seen: Any, late: Any, queue: Any) -> None:
+def _plant(t: Any, states: Any, seen: Any, touches: Any, late: Any, queue: Any, roots: Any, out: Any) -> None:
+    """Mark the edges of a spanning tree of every component, those with a boundary first; list their first halfedges.
+
+    `touches` has the vertices along boundary loops; `late` gets those of them that were not reached along one.
+    """
+    n = 0
+    if t.counts[N_EXTERIOR] > 0:
+        for v in range(vertex_slots(t)):
+            if _has(touches, v) and not _has(seen, v):
+                roots[n] = halfedge_of_vertex(t, v)
+                _grow(t, roots[n], states, seen, touches, late, queue)
+                n += 1
+    out[1] = n
+    for v in range(vertex_slots(t)):
+        if not _has(seen, v):
+            h = halfedge_of_vertex(t, v)
+            if h >= 0:
+                roots[n] = h
+                _grow(t, h, states, seen, touches, late, queue)
+                n += 1
+    out[0] = n
+
+
+@kernel
+def _grow(t: Any, root: int, states: Any, seen: Any, touches: Any, late: Any, queue: Any) -> None:
+    """The tree of one component; the queue holds a halfedge that leaves each vertex."""
     v = origin_of(t, root)
-    seen[v >> 3] |= 1 << (v & 7)
+    _put(seen, v)
     queue[0] = root
-    n = 1
-    if is_exterior(t, root):
-        n = _follow(t, root, states, seen, queue, n)
+    n = _follow(t, root, states, seen, queue, 1) if _has(touches, v) else 1
     i = 0
     while i < n:
         start = queue[i]
@@ -196,14 +207,12 @@ def _grow(t: Any, root: int, states: Any, seen: Any, late: Any, queue: Any) -> N
         h = start
         while True:
             v = target_of(t, h)
-            if (seen[v >> 3] >> (v & 7)) & 1 == 0:
+            if not _has(seen, v):
                 n = _add(t, h, v, states, seen, queue, n)
-                if t.counts[N_EXTERIOR] > 0:
-                    g = halfedge_of_vertex(t, v)
-                    if is_exterior(t, g):
-                        if not is_exterior(t, h):
-                            late[v >> 3] |= 1 << (v & 7)
-                        n = _follow(t, g, states, seen, queue, n)
+                if _has(touches, v):
+                    if not is_exterior(t, h):
+                        _put(late, v)
+                    n = _follow(t, halfedge_of_vertex(t, v), states, seen, queue, n)
             h = cw_of(t, h)
             if h == start:
                 break
@@ -215,7 +224,7 @@ def _follow(t: Any, start: int, states: Any, seen: Any, queue: Any, n: int) -> i
     h = start
     while True:
         v = target_of(t, h)
-        if (seen[v >> 3] >> (v & 7)) & 1 == 0:
+        if not _has(seen, v):
             n = _add(t, h, v, states, seen, queue, n)
         h = next_of(t, h)
         if h == start:
@@ -224,10 +233,10 @@ def _follow(t: Any, start: int, states: Any, seen: Any, queue: Any, n: int) -> i
 
 @kernel
 def _add(t: Any, h: int, v: int, states: Any, seen: Any, queue: Any, n: int) -> int:
-    seen[v >> 3] |= 1 << (v & 7)
+    _put(seen, v)
     e = edge_of(t, h)
     states[e >> 2] |= TREE_EDGE << (2 * (e & 3))
-    queue[n] = next_of(t, h)
+    queue[n] = twin_of(t, h)
     return n + 1
 
 
