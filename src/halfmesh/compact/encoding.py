@@ -4,7 +4,7 @@ In every component the tree is grown breadth first, after its boundary loops: a 
 reached, so that the exterior halfedge of nearly every boundary vertex is the one after its opening parenthesis. What
 is left of the edges is a spanning tree of the faces and holes, as every component can be drawn on a sphere.
 
-The tour follows the tree with the left hand: from `h` on to ``next(h)`` if `h` is of the tree, else, over `h`, to
+The tour keeps the tree at its right hand: from `h` on to ``next(h)`` if `h` is of the tree, else, over `h`, to
 ``cw(h)``. So it comes past every halfedge once.
 """
 
@@ -20,7 +20,7 @@ from halfmesh._jit import kernel, rule
 from halfmesh.compact.directory import add_directory, n_words
 from halfmesh.compact.parentheses import is_opening, is_tree, opens_before
 from halfmesh.compact.topology import N_COMPONENTS, N_ISOLATED, N_OPEN, N_SYMBOLS, Arrays, CompactTopology
-from halfmesh.compact.words import FULL, bit_of
+from halfmesh.compact.words import bit_of
 from halfmesh.core.compaction import Maps
 from halfmesh.core.counting import components
 from halfmesh.core.navigation import (
@@ -35,6 +35,7 @@ from halfmesh.core.navigation import (
     is_isolated,
     next_of,
     origin_of,
+    prev_of,
     target_of,
     twin_of,
     vertex_slots,
@@ -46,7 +47,7 @@ __all__ = ["Encoded", "compacted", "maps_of"]
 
 Ints = NDArray[np.int32]
 
-TREE_EDGE, SEEN_EDGE = 1, 2  # two bits for each edge
+TREE_EDGE, SEEN_FORTH, SEEN_BACK = 1, 2, 4  # four bits for each edge
 
 
 @dataclass(frozen=True)
@@ -81,18 +82,20 @@ def compacted(t: Topology) -> Encoded:
     """
     counts = t.__arrays__().counts
     n = int(counts[1] - counts[N_DEAD_EDGES]) * 2
+    n_vertices = int(counts[0] - counts[N_DEAD_VERTICES])
     seen, touches, late = (_bits_for(int(counts[0])) for _ in range(3))
     n_loops = _find_loops.at(n)(t, _bits_for(2 * int(counts[1])), touches) if counts[N_EXTERIOR] else 0
-    n_vertices = int(counts[0] - counts[N_DEAD_VERTICES])
-    states = np.zeros(int(counts[1]) // 4 + 1, np.uint8)
-    vertices, out = np.empty(n_vertices, np.int32), np.zeros(4, np.int64)
-    _plant.at(n)(t, states, seen, touches, late, np.empty(n_vertices, np.int32), vertices, out)
+    states, queue = np.zeros(int(counts[1]) // 2 + 1, np.uint8), np.empty(n_vertices, np.int32)
+    roots, starts, nodes = (np.zeros(n_vertices + 1, np.int32) for _ in range(3))  # of which little is touched
+    out = np.zeros(4, np.int64)
+    _plant.at(n)(t, states, seen, touches, late, queue, roots, starts, nodes, out)
     n_components, n_open = int(out[0]), int(out[1])
+    del queue, seen, touches
     a = Arrays()
-    roots = vertices[:n_components].copy()
     a.bits = _aligned(n_words(n))
-    a.starts, a.holes = np.empty(n_components + 1, np.int32), np.empty(n_loops, np.int32)
-    _tour.at(n)(t, roots, states, a.bits, vertices, a.starts, a.holes, n_loops > n_open, out)
+    a.starts, nodes, roots = (x[: n_components + k].copy() for x, k in ((starts, 1), (nodes, 1), (roots, 0)))
+    vertices, a.holes = np.empty(n_vertices, np.int32), np.empty(n_loops, np.int32)
+    _tour.at(n)(t, roots, states, a.bits, vertices, a.starts, nodes, a.holes, n_loops > n_open, out)
     n_nodes, n_dual_nodes, n_holes = int(out[0]), int(out[1]), int(out[2])
     if n_dual_nodes != counts[2] - counts[N_DEAD_FACES] + n_loops:
         raise _too_many_handles(t)
@@ -118,11 +121,11 @@ def _bits_for(n: int) -> NDArray[np.uint8]:
 
 
 def _aligned(n: int) -> NDArray[np.int64]:
-    """Words that begin with a cache line, and stand for '('."""
+    """Zeros that begin with a cache line."""
     memory = np.empty(n + 8, np.int64)
     skip = -(memory.ctypes.data // 8) % 8
     words = memory[skip : skip + n]
-    words[:] = FULL
+    words[:] = 0
     return words
 
 
@@ -170,17 +173,21 @@ def _find_loops(t: Any, seen: Any, touches: Any) -> int:
 
 
 @kernel
-def _plant(t: Any, states: Any, seen: Any, touches: Any, late: Any, queue: Any, roots: Any, out: Any) -> None:
-    """Mark the edges of a spanning tree of every component, those with a boundary first; list their first halfedges.
+def _plant(
+    t: Any, states: Any, seen: Any, touches: Any, late: Any, queue: Any, roots: Any, starts: Any, nodes: Any, out: Any
+) -> None:
+    """Mark the edges of a spanning tree of every component, those with a boundary first.
 
     `touches` has the vertices along boundary loops; `late` gets those of them that were not reached along one.
+    `roots` gets the first halfedges of the components; `starts` and `nodes` how many halfedges, and vertices but the
+    roots, the components before each have.
     """
     n = 0
     if t.counts[N_EXTERIOR] > 0:
         for v in range(vertex_slots(t)):
             if _has(touches, v) and not _has(seen, v):
                 roots[n] = halfedge_of_vertex(t, v)
-                _grow(t, roots[n], states, seen, touches, late, queue)
+                _grow(t, n, roots, starts, nodes, states, seen, touches, late, queue)
                 n += 1
     out[1] = n
     for v in range(vertex_slots(t)):
@@ -188,24 +195,28 @@ def _plant(t: Any, states: Any, seen: Any, touches: Any, late: Any, queue: Any, 
             h = halfedge_of_vertex(t, v)
             if h >= 0:
                 roots[n] = h
-                _grow(t, h, states, seen, touches, late, queue)
+                _grow(t, n, roots, starts, nodes, states, seen, touches, late, queue)
                 n += 1
     out[0] = n
 
 
 @kernel
-def _grow(t: Any, root: int, states: Any, seen: Any, touches: Any, late: Any, queue: Any) -> None:
+def _grow(
+    t: Any, c: int, roots: Any, starts: Any, nodes: Any, states: Any, seen: Any, touches: Any, late: Any, queue: Any
+) -> None:
     """The tree of one component; the queue holds a halfedge that leaves each vertex."""
+    root = roots[c]
     v = origin_of(t, root)
     _put(seen, v)
     queue[0] = root
     n = _follow(t, root, states, seen, queue, 1) if _has(touches, v) else 1
-    i = 0
+    i, n_halfedges = 0, 0
     while i < n:
         start = queue[i]
         i += 1
         h = start
         while True:
+            n_halfedges += 1
             v = target_of(t, h)
             if not _has(seen, v):
                 n = _add(t, h, v, states, seen, queue, n)
@@ -216,6 +227,8 @@ def _grow(t: Any, root: int, states: Any, seen: Any, touches: Any, late: Any, qu
             h = cw_of(t, h)
             if h == start:
                 break
+    starts[c + 1] = starts[c] + n_halfedges
+    nodes[c + 1] = nodes[c] + n - 1
 
 
 @kernel
@@ -235,7 +248,7 @@ def _follow(t: Any, start: int, states: Any, seen: Any, queue: Any, n: int) -> i
 def _add(t: Any, h: int, v: int, states: Any, seen: Any, queue: Any, n: int) -> int:
     _put(seen, v)
     e = edge_of(t, h)
-    states[e >> 2] |= TREE_EDGE << (2 * (e & 3))
+    states[e >> 1] |= TREE_EDGE << (4 * (e & 1))
     queue[n] = twin_of(t, h)
     return n + 1
 
@@ -245,54 +258,90 @@ def _add(t: Any, h: int, v: int, states: Any, seen: Any, queue: Any, n: int) -> 
 
 @kernel
 def _tour(
-    t: Any, roots: Any, states: Any, bits: Any, vertices: Any, starts: Any, holes: Any, has_holes: bool, out: Any
-) -> None:
+    t: Any, roots: Any, states: Any, bits: Any, vertices: Any, starts: Any, nodes: Any, holes: Any, has_holes: bool,
+    out: Any,
+) -> None:  # fmt: skip
     """Write the symbols; list the old vertices in the new order, and the nodes that are holes and not roots."""
-    n_components = len(roots)
-    i, word, n_nodes, n_dual_nodes, n_holes = 0, 0, n_components, n_components, 0
+    n_components, n_holes = len(roots), 0
     for c in range(n_components):
-        starts[c] = i
-        root = roots[c]
-        vertices[c] = origin_of(t, root)
-        h = root
-        while True:
-            e = edge_of(t, h)
-            shift = 2 * (e & 3)
-            state = (states[e >> 2] >> shift) & 3
-            bit = bit_of(i)
-            word |= (state & TREE_EDGE) << bit
-            if state < SEEN_EDGE:
-                states[e >> 2] |= SEEN_EDGE << shift
-                word |= 16 << bit if bit < 59 else -1 << 63  # two ways to the same bit: it is the sign
-                if state & TREE_EDGE:
-                    vertices[n_nodes] = target_of(t, h)
-                    n_nodes += 1
-                else:
-                    if has_holes and is_exterior(t, twin_of(t, h)) and n_holes < len(holes):
-                        holes[n_holes] = n_dual_nodes
-                        n_holes += 1
-                    n_dual_nodes += 1
-            i += 1
-            if i & 31 == 0:
-                bits[(i >> 5) - 1] = word
-                word = 0
-            h = next_of(t, h) if state & TREE_EDGE else cw_of(t, h)
-            if h == root:
-                break
-    starts[n_components] = i
-    if i & 31 != 0:
-        for k in range(i, (i | 31) + 1):
-            bit = bit_of(k)
-            word |= 1 << bit
-            word |= 16 << bit if bit < 59 else -1 << 63
-        bits[i >> 5] = word
-    out[0], out[1], out[2] = n_nodes, n_dual_nodes, n_holes
+        vertices[c] = origin_of(t, roots[c])
+        n_holes = _tour_of_component(t, c, roots, states, bits, vertices, starts, nodes, holes, has_holes, n_holes)
+    n_nodes = n_components + nodes[n_components]
+    out[0], out[1], out[2] = n_nodes, n_components + starts[n_components] // 2 - nodes[n_components], n_holes
+    for i in range(starts[n_components], 32 * len(bits)):
+        _write(bits, i, 1, 1)
     for v in range(vertex_slots(t)):
         if n_nodes == len(vertices):
             break
         if is_isolated(t, v):
             vertices[n_nodes] = v
             n_nodes += 1
+
+
+@kernel
+def _tour_of_component(
+    t: Any, c: int, roots: Any, states: Any, bits: Any, vertices: Any, starts: Any, nodes: Any, holes: Any,
+    has_holes: bool, n_holes: int,
+) -> int:  # fmt: skip
+    """From both ends at once, until the two meet: in memory that is not at hand a step waits for the one before it.
+
+    Which of the two halfedges of an edge comes first is known all the same: for the walk forth it is the first that
+    it meets itself, for the walk back the second.
+    """
+    n_components = len(roots)
+    i, j = starts[c], starts[c + 1] - 1
+    first, last = n_components + nodes[c], n_components + nodes[c + 1] - 1
+    first_dual = n_components + i // 2 - nodes[c]
+    last_dual = n_components + (j + 1) // 2 - nodes[c + 1] - 1
+    n_back, h, g = 0, roots[c], roots[c]
+    while i <= j:
+        e = edge_of(t, h)
+        state = states[e >> 1] >> (4 * (e & 1))
+        tree = state & TREE_EDGE
+        opens = 0 if state & SEEN_FORTH else 1
+        _write(bits, i, tree, opens)
+        i += 1
+        if opens:
+            states[e >> 1] |= SEEN_FORTH << (4 * (e & 1))
+            if tree:
+                vertices[first] = target_of(t, h)
+                first += 1
+            else:
+                if has_holes and is_exterior(t, twin_of(t, h)) and n_holes + n_back < len(holes):
+                    holes[n_holes] = first_dual
+                    n_holes += 1
+                first_dual += 1
+        h = next_of(t, h) if tree else cw_of(t, h)
+        if i > j:
+            break
+        g = prev_of(t, g)
+        e = edge_of(t, g)
+        state = states[e >> 1] >> (4 * (e & 1))
+        tree = state & TREE_EDGE
+        opens = 1 if state & SEEN_BACK else 0
+        g = g if tree else twin_of(t, g)
+        _write(bits, j, tree, opens)
+        j -= 1
+        if not opens:
+            states[e >> 1] |= SEEN_BACK << (4 * (e & 1))
+        elif tree:
+            vertices[last] = target_of(t, g)
+            last -= 1
+        else:
+            if has_holes and is_exterior(t, twin_of(t, g)) and n_holes + n_back < len(holes):
+                n_back += 1
+                holes[len(holes) - n_back] = last_dual
+            last_dual -= 1
+    for k in range(len(holes) - n_back, len(holes)):
+        holes[n_holes] = holes[k]
+        n_holes += 1
+    return n_holes
+
+
+@kernel
+def _write(bits: Any, i: int, tree: int, opens: int) -> None:
+    bit = bit_of(i)
+    bits[i >> 5] |= (tree << bit) | ((opens << (bit + 4)) if bit < 59 else -opens << 63)  # the last bit is the sign
 
 
 @kernel
