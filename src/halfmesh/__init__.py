@@ -67,11 +67,13 @@ if TYPE_CHECKING:
     from halfmesh import algorithms, geometry, io, shapes, testing, viewer
     from halfmesh.algorithms import triangulate, triangulate_face, triangulate_face_status, triangulated
     from halfmesh.io import load, save
+    from halfmesh.mesh.readonly import TriangleMesh
 
 __version__ = "0.1.0"
 
 _ROOMS = ("algorithms", "geometry", "io", "shapes", "testing", "viewer")
 _LATER = dict.fromkeys(_ROOMS, "") | {
+    "TriangleMesh": "mesh.readonly",
     "load": "io",
     "save": "io",
     "triangulate": "algorithms",
@@ -107,6 +109,7 @@ __all__ = [
     "PreconditionError",
     "StaleElementError",
     "TopologyError",
+    "TriangleMesh",
     "Vertex",
     "algorithms",
     "ccw_of",

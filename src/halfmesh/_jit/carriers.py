@@ -76,7 +76,7 @@ class CarrierType:
         for verb in ("make", "take"):
             function = scope[f"{verb}_{self.name}"]
             function.__module__ = __name__
-            setattr(self, f"_{verb}", dispatcher(function, salt=repr(self.fields)))
+            setattr(self, f"_{verb}", dispatcher(function, salt=repr((self.fields, stamp))))
 
 
 def _define_uncounted(carrier: Any) -> None:
