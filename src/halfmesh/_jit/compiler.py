@@ -268,6 +268,7 @@ def _writable_folder() -> str | None:
 
 def _disk_cache(function: types.FunctionType, stamp: str) -> FunctionCache | None:
     """Numba's cache with our key; None where nothing can be written, which costs the recompilation and no more."""
+    from numba.core import types as nbtypes
     from numba.core.caching import CompileResultCacheImpl, FunctionCache, _CacheLocator
 
     folder = _writable_folder()
@@ -300,7 +301,10 @@ def _disk_cache(function: types.FunctionType, stamp: str) -> FunctionCache | Non
         _impl_class = Implementation
 
         def _index_key(self, sig: Any, codegen: Any) -> Any:
-            return (sig, codegen.magic_tuple())  # the stamp knows the code, and what closures hold
+            # The stamp knows the code, and what closures hold. The types are named, not pickled: the index of a kernel
+            # is to be read where the carriers that others have called it with were never declared.
+            is_named = not any(isinstance(t, nbtypes.Callable) for t in sig)
+            return (", ".join(t.name for t in sig) if is_named else sig, codegen.magic_tuple())
 
         def load_overload(self, sig: Any, target_context: Any) -> Any:
             try:

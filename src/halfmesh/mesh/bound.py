@@ -34,7 +34,7 @@ def _word(rule: Any, kind: str, doc: str | None) -> property:
 
 def _define(base: type[Element]) -> None:
     words: dict[str, Any] = {
-        name: _word(rule, kind, rule.__doc__) for name, (rule, kind) in getattr(base, "steps", {}).items()
+        name: _word(rule, kind, rule.__doc__) for name, (rule, kind) in getattr(base, "_steps", {}).items()
     }
     BOUND[base.kind] = type(base.__name__, (_Bound, base), {"__slots__": (), "__module__": __name__, **words})
 

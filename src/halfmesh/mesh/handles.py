@@ -40,7 +40,7 @@ class Element:
 
     _family: ClassVar[Mapping[str, type[Element]]] = KINDS  # the classes of the handles that its words give
     _form: ClassVar[str] = "plain"  # the form of kernels that walks its carrier
-    steps: ClassVar[dict[str, tuple[Any, str]]]  # the words that follow one rule: the rule, and the kind it leads to
+    _steps: ClassVar[dict[str, tuple[Any, str]]]  # the words that follow one rule: the rule, and the kind it leads to
 
     def __init_subclass__(cls) -> None:
         if "kind" in vars(cls):  # not for classes that users derive
@@ -188,9 +188,9 @@ class _Step(Generic[R]):
 
     def __set_name__(self, owner: type[Element], name: str) -> None:
         self.owner, self.name = owner, name
-        if "steps" not in vars(owner):
-            owner.steps = {}
-        owner.steps[name] = self.rule, self.kind
+        if "_steps" not in vars(owner):
+            owner._steps = {}
+        owner._steps[name] = self.rule, self.kind
 
     @overload
     def __get__(self, instance: None, owner: type) -> property: ...
