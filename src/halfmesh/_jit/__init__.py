@@ -27,7 +27,7 @@ Numba structref; in interpreted code it is an ordinary object with the same attr
 from halfmesh._jit.arguments import Carrier, Views, array_of, lowered, view
 from halfmesh._jit.carriers import CarrierType, declare_carrier
 from halfmesh._jit.circulators import Circulator, circulator, declared
-from halfmesh._jit.compiler import apart, cache_folder
+from halfmesh._jit.compiler import apart, bit_count, bit_length, cache_folder
 from halfmesh._jit.gears import compiling_always
 from halfmesh._jit.kernels import Kernel, Operation, all_kernels, inline_kernel, kernel, operation, twofold
 from halfmesh._jit.room import filled, grown
@@ -45,6 +45,8 @@ __all__ = [
     "all_kernels",
     "apart",
     "array_of",
+    "bit_count",
+    "bit_length",
     "cache_folder",
     "circulator",
     "compiling_always",

@@ -18,12 +18,15 @@ from halfmesh._jit.loops import with_column_reads
 
 if TYPE_CHECKING:
     import pathlib
+    from collections.abc import Callable
 
     from numba.core.caching import FunctionCache
 
 __all__ = [
     "Compilable",
     "apart",
+    "bit_count",
+    "bit_length",
     "cache_folder",
     "define_carriers",
     "dispatcher",
@@ -53,30 +56,39 @@ def numba() -> Any:
     def _typeof(value: Any, context: Any) -> Any:
         return nbtypes.Dispatcher(value.compiled)
 
-    @typeof_impl.register(_Apart)
-    def _typeof_apart(value: Any, context: Any) -> Any:
+    @typeof_impl.register(_Intrinsic)
+    def _typeof_intrinsic(value: Any, context: Any) -> Any:
         from numba.core.registry import cpu_target
 
-        mark = _never_inlined()
+        made = value.compiled()
         cpu_target.typing_context.refresh()  # it may be newer than what the context has seen
-        return cpu_target.typing_context.resolve_value_type(mark)
+        return cpu_target.typing_context.resolve_value_type(made)
 
     return numba
 
 
-class _Apart:
-    """See :data:`apart`."""
+class _Intrinsic:
+    """What compiled code does by other means than Python's."""
 
-    def __call__(self) -> None:
-        pass
+    def __init__(self, name: str, plain: Callable[..., Any], compiled: Callable[[], Any]) -> None:
+        self.name, self.plain, self.compiled = name, plain, compiled
+
+    def __call__(self, *args: Any) -> Any:
+        return self.plain(*args)
 
     def __repr__(self) -> str:
-        return "apart"
+        return self.name
 
 
-apart = _Apart()
+apart = _Intrinsic("apart", lambda: None, lambda: _never_inlined())
 """``apart()`` in the body of a kernel keeps its code out of its callers: for the rare case in a small kernel, which
 LLVM would otherwise write into all of them. Twenty pens with the growth of the journal took 8 s to optimize."""
+
+bit_count = _Intrinsic("bit_count", int.bit_count, lambda: _on_bits("ctpop"))
+"""``bit_count(x)`` in a kernel: how many bits of an int64 that is not negative are 1, by one machine instruction."""
+
+bit_length = _Intrinsic("bit_length", int.bit_length, lambda: _on_bits("ctlz"))
+"""``bit_length(x)`` in a kernel: the place behind the highest 1 of an int64 that is not negative; 0 for 0."""
 
 
 @functools.cache
@@ -93,6 +105,25 @@ def _never_inlined() -> Any:
         return nbtypes.void(), generate
 
     return never_inlined
+
+
+@functools.cache
+def _on_bits(instruction: str) -> Any:
+    from numba.core import cgutils
+    from numba.core import types as nbtypes
+    from numba.extending import intrinsic
+
+    @intrinsic
+    def on_bits(typing_context: Any, word: Any) -> Any:
+        def generate(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+            (x,) = arguments
+            if instruction == "ctpop":
+                return builder.ctpop(x)
+            return builder.sub(x.type(64), builder.ctlz(x, cgutils.false_bit))
+
+        return nbtypes.int64(nbtypes.int64), generate
+
+    return on_bits
 
 
 @functools.cache
