@@ -8,14 +8,14 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from isomorphism import assert_alike, encoded
+from mullin import from_symbols, from_text, random_symbols
 
 import halfmesh as hm
 from halfmesh.compact.decoding import decoded
 from halfmesh.compact.encoding import compacted, maps_of
 from halfmesh.core.invariants import check
 from halfmesh.core.topology import COLUMNS
-from isomorphism import assert_alike, encoded
-from mullin import from_symbols, from_text, random_symbols
 from soups import meshes_or_not
 from wandering import wander
 

@@ -80,17 +80,6 @@ class _Intrinsic:
         return self.name
 
 
-apart = _Intrinsic("apart", lambda: None, lambda: _never_inlined())
-"""``apart()`` in the body of a kernel keeps its code out of its callers: for the rare case in a small kernel, which
-LLVM would otherwise write into all of them. Twenty pens with the growth of the journal took 8 s to optimize."""
-
-bit_count = _Intrinsic("bit_count", int.bit_count, lambda: _on_bits("ctpop"))
-"""``bit_count(x)`` in a kernel: how many bits of an int64 that is not negative are 1, by one machine instruction."""
-
-bit_length = _Intrinsic("bit_length", int.bit_length, lambda: _on_bits("ctlz"))
-"""``bit_length(x)`` in a kernel: the place behind the highest 1 of an int64 that is not negative; 0 for 0."""
-
-
 @functools.cache
 def _never_inlined() -> Any:
     from numba.core import types as nbtypes
@@ -124,6 +113,17 @@ def _on_bits(instruction: str) -> Any:
         return nbtypes.int64(nbtypes.int64), generate
 
     return on_bits
+
+
+apart = _Intrinsic("apart", lambda: None, _never_inlined)
+"""``apart()`` in the body of a kernel keeps its code out of its callers: for the rare case in a small kernel, which
+LLVM would otherwise write into all of them. Twenty pens with the growth of the journal took 8 s to optimize."""
+
+bit_count = _Intrinsic("bit_count", int.bit_count, lambda: _on_bits("ctpop"))
+"""``bit_count(x)`` in a kernel: how many bits of an int64 that is not negative are 1, by one machine instruction."""
+
+bit_length = _Intrinsic("bit_length", int.bit_length, lambda: _on_bits("ctlz"))
+"""``bit_length(x)`` in a kernel: the place behind the highest 1 of an int64 that is not negative; 0 for 0."""
 
 
 @functools.cache

@@ -34,7 +34,7 @@ from halfmesh.core.topology import (
     empty_columns,
 )
 
-__all__ = ["ReadOnly", "counts_of", "rules_of", "views_class"]
+__all__ = ["Computed", "ReadOnly", "counts_of", "rules_of", "views_class"]
 
 Ints = NDArray[np.int32]
 
@@ -57,30 +57,11 @@ def counts_of(n_vertices: int, n_edges: int, n_faces: int, n_exterior: int) -> N
     return counts
 
 
-class ReadOnly:
-    """Connectivity that is only read, held in arrays of its own under the words of `core.navigation`.
+class Computed:
+    """Columns that are not stored: each is made, as a whole, when it is asked for."""
 
-    Its ``next``, ``prev``, ``origin``, ``face``, ``vertex_halfedge`` and ``face_halfedge`` are not stored: they are
-    made, as whole columns, when they are asked for.
-    """
-
-    fields: ClassVar[tuple[str, ...]]
-    carrier: ClassVar[_jit.CarrierType]
-    views: ClassVar[type[_jit.Views]]
-
-    def __init__(self, arrays: Mapping[str, NDArray[Any]]) -> None:
-        self.arrays = {name: arrays[name] for name in self.fields}
-        self._views = self.views()
-        for name, array in self.arrays.items():
-            setattr(self._views, name, _jit.view(array))
-        self._lowered: Any = None
-
-    @property
-    def nbytes(self) -> int:
-        """Bytes that are held."""
-        return sum(array.nbytes for array in self.arrays.values())
-
-    # -- the columns, made when asked for ------------------------------------------------------------------------
+    __slots__ = ()
+    __views__: Callable[..., Any]
 
     @property
     def next(self) -> Ints:
@@ -122,7 +103,7 @@ class ReadOnly:
         e = edge_of(self, h)
         new = (2 * e + (halfedge_of_edge(self, e) != h)).astype(np.int32)
         made = empty_columns(*(int(slots(self)) for slots in (vertex_slots, edge_slots, face_slots)))
-        made.counts[N_EXTERIOR] = self._views.counts[N_EXTERIOR]  # type: ignore[attr-defined]
+        made.counts[N_EXTERIOR] = self.__views__().counts[N_EXTERIOR]
         if len(h):
             made.next[new], made.prev[new] = new[self.next], new[self.prev]
             made.origin[new], made.face[new] = self.origin, self.face
@@ -130,6 +111,26 @@ class ReadOnly:
         made.vertex_halfedge[: len(leaving)] = np.where(leaving >= 0, np.append(new, -1)[leaving], -1)
         made.face_halfedge[: face_slots(self)] = new[self.face_halfedge]
         return Topology(made)
+
+
+class ReadOnly(Computed):
+    """Connectivity that is only read, held in arrays of its own under the words of `core.navigation`."""
+
+    fields: ClassVar[tuple[str, ...]]
+    carrier: ClassVar[_jit.CarrierType]
+    views: ClassVar[type[_jit.Views]]
+
+    def __init__(self, arrays: Mapping[str, NDArray[Any]]) -> None:
+        self.arrays = {name: arrays[name] for name in self.fields}
+        self._views = self.views()
+        for name, array in self.arrays.items():
+            setattr(self._views, name, _jit.view(array))
+        self._lowered: Any = None
+
+    @property
+    def nbytes(self) -> int:
+        """Bytes that are held."""
+        return sum(array.nbytes for array in self.arrays.values())
 
     # -- a carrier -----------------------------------------------------------------------------------------------
 

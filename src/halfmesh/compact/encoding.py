@@ -18,17 +18,15 @@ from numpy.typing import NDArray
 
 from halfmesh._jit import kernel, rule
 from halfmesh.compact.directory import add_directory, n_words
-from halfmesh.compact.parentheses import is_opening, is_tree, opens_before
-from halfmesh.compact.topology import N_COMPONENTS, N_ISOLATED, N_OPEN, N_SYMBOLS, Arrays, CompactTopology
+from halfmesh.compact.parentheses import is_opening, is_tree
+from halfmesh.compact.topology import Arrays, CompactTopology
 from halfmesh.compact.words import bit_of
 from halfmesh.core.compaction import Maps
 from halfmesh.core.counting import components
 from halfmesh.core.navigation import (
     cw_of,
     edge_of,
-    edge_slots,
     face_of,
-    face_slots,
     halfedge_of_vertex,
     halfedge_slots,
     is_exterior,
@@ -141,7 +139,7 @@ def _too_many_handles(t: Topology) -> PreconditionError:
     )
 
 
-# -- bits ----------------------------------------------------------------------------------------------------------------
+# -- bits --------------------------------------------------------------------------------------------------------------
 
 
 @rule
@@ -154,7 +152,7 @@ def _put(bits: Any, i: int) -> None:
     bits[i >> 3] |= 1 << (i & 7)
 
 
-# -- the tree ------------------------------------------------------------------------------------------------------------
+# -- the tree ----------------------------------------------------------------------------------------------------------
 
 
 @kernel
@@ -253,7 +251,7 @@ def _add(t: Any, h: int, v: int, states: Any, seen: Any, queue: Any, n: int) -> 
     return n + 1
 
 
-# -- the tour ------------------------------------------------------------------------------------------------------------
+# -- the tour ----------------------------------------------------------------------------------------------------------
 
 
 @kernel
@@ -354,7 +352,7 @@ def _find_gaps(t: Any, gaps: Any, halfedges: Any) -> None:
         halfedges[k] = h
 
 
-# -- the maps ------------------------------------------------------------------------------------------------------------
+# -- the maps ----------------------------------------------------------------------------------------------------------
 
 
 def maps_of(t: Topology, encoded: Encoded) -> Maps:

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from halfmesh.compact import TriangleTopology
-from halfmesh.compact.carrier import ReadOnly
+from halfmesh.compact.carrier import Computed
 from halfmesh.core.topology import EDGE_SLOTS, FACE_SLOTS, VERTEX_SLOTS, Topology
 from halfmesh.errors import PreconditionError
 from halfmesh.mesh.asking import Asked
@@ -30,7 +30,7 @@ class ReadOnlyMesh(Asked):
     has_points: bool
     build_seconds: float
 
-    def _hold(self, topology: ReadOnly, points: Floats, has_points: bool) -> None:
+    def _hold(self, topology: Computed, points: Floats, has_points: bool) -> None:
         self._topology: Any = topology
         self._t = topology.__views__()
         self._cache: dict[str, tuple[int, Any]] = {}
