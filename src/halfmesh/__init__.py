@@ -67,11 +67,15 @@ if TYPE_CHECKING:
     from halfmesh import algorithms, geometry, io, shapes, testing, viewer
     from halfmesh.algorithms import triangulate, triangulate_face, triangulate_face_status, triangulated
     from halfmesh.io import load, save
+    from halfmesh.mesh.compact_mesh import CompactMesh
+    from halfmesh.mesh.readonly import TriangleMesh
 
 __version__ = "0.1.0"
 
 _ROOMS = ("algorithms", "geometry", "io", "shapes", "testing", "viewer")
 _LATER = dict.fromkeys(_ROOMS, "") | {
+    "CompactMesh": "mesh.compact_mesh",
+    "TriangleMesh": "mesh.readonly",
     "load": "io",
     "save": "io",
     "triangulate": "algorithms",
@@ -96,6 +100,7 @@ def __dir__() -> list[str]:
 
 
 __all__ = [
+    "CompactMesh",
     "Edge",
     "ElementError",
     "Face",
@@ -107,6 +112,7 @@ __all__ = [
     "PreconditionError",
     "StaleElementError",
     "TopologyError",
+    "TriangleMesh",
     "Vertex",
     "algorithms",
     "ccw_of",

@@ -8,14 +8,14 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from isomorphism import assert_alike, encoded
+from mullin import from_symbols, from_text, random_symbols
 
 import halfmesh as hm
 from halfmesh.compact.decoding import decoded
 from halfmesh.compact.encoding import compacted, maps_of
 from halfmesh.core.invariants import check
 from halfmesh.core.topology import COLUMNS
-from isomorphism import assert_alike, encoded
-from mullin import from_symbols, from_text, random_symbols
 from soups import meshes_or_not
 from wandering import wander
 
@@ -37,7 +37,7 @@ def with_holes(mesh, rng, share):
     return mesh
 
 
-# -- alike ---------------------------------------------------------------------------------------------------------------
+# -- alike -------------------------------------------------------------------------------------------------------------
 
 
 @every_flat_mesh
@@ -128,7 +128,7 @@ def test_fan_and_bipyramid():
         encoded(hm.Mesh(faces).topology)
 
 
-# -- back ----------------------------------------------------------------------------------------------------------------
+# -- back --------------------------------------------------------------------------------------------------------------
 
 
 @every_flat_mesh
@@ -169,7 +169,7 @@ def text(t):
     return "".join("])[("[2 * is_opening(t, i) + is_tree(t, i)] for i in range(t.n_halfedges))
 
 
-# -- refused -------------------------------------------------------------------------------------------------------------
+# -- refused -----------------------------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize("name", [name for name in ZOO if name not in FLAT])
@@ -193,7 +193,7 @@ def test_the_source_is_not_touched():
     assert before == {name: getattr(mesh.topology, name).tobytes() for name in COLUMNS[:-1]}
 
 
-# -- figures -------------------------------------------------------------------------------------------------------------
+# -- figures -----------------------------------------------------------------------------------------------------------
 
 
 @pytest.mark.large

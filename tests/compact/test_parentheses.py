@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from mullin import from_symbols, from_text, partners, random_symbols
 
 from halfmesh._jit import kernel
 from halfmesh.compact import parentheses, words
-from mullin import from_symbols, from_text, partners, random_symbols
 
 
 @kernel

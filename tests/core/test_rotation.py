@@ -144,3 +144,12 @@ def test_a_loop_edge_does_not_keep_its_vertex_from_collapsing():
     mesh.add_edge(0, 0)
     mesh.add_edge(0, 1)
     assert [hm.collapse_status(mesh, h) for h in (2, 3)] == [0, 0]
+
+
+def test_two_triangles_may_close_over_the_same_edge():
+    """Each has a loop edge at one end and shares its third edge with the other: both close over that one."""
+    mesh = hm.Mesh([[0, 1, 1], [1, 0, 0]], twins=[3, -1, 5, 0, -1, 2], n_vertices=2)
+    mesh.fill_hole(mesh.boundary_loops()[0][0])
+    mesh.collapse(mesh.find_halfedge(0, 1))
+    mesh.check()
+    assert (mesh.n_vertices, mesh.n_edges, mesh.n_faces, mesh.n_boundary_loops) == (1, 1, 1, 1)

@@ -76,7 +76,7 @@ def test_constant_time_counts_do_not_walk(monkeypatch):
     """C2: has_boundary and the Euler characteristic come from what is kept."""
     mesh = ZOO["torus with two holes"].mesh()
     for name in ("boundary_loops", "components", "vertex_kinds"):
-        monkeypatch.setattr(hm.mesh.mesh.counting, name, None)
+        monkeypatch.setattr(hm.mesh.counts.counting, name, None)
     assert (mesh.has_boundary, mesh.euler_characteristic, mesh.n_halfedges, mesh.n_exterior_halfedges) == (
         True,
         -2,
@@ -89,8 +89,8 @@ def test_walked_counts_are_kept_until_the_connectivity_changes(monkeypatch):
     """C3."""
     mesh = ZOO["torus with two holes"].mesh()
     walks = []
-    count = hm.mesh.mesh.counting.components
-    monkeypatch.setattr(hm.mesh.mesh.counting, "components", lambda t: walks.append(1) or count(t))
+    count = hm.mesh.counts.counting.components
+    monkeypatch.setattr(hm.mesh.counts.counting, "components", lambda t: walks.append(1) or count(t))
     mesh.points[:] = 1.0
     assert (mesh.genus, mesh.n_connected_components, mesh.genus) == (1, 1, 1)
     assert len(walks) == 1

@@ -227,7 +227,10 @@ def collapse(m, h, weight):
     """The ends become one vertex, and each triangle, left with two sides, one edge."""
     closing = closing_beside(m, h)
     b = contract(m, h)
+    instead = {}  # two triangles may have one edge for their third, when their apexes are the ends of the edge
     for stays, goes in closing:
+        stays = instead.get(stays, stays)  # noqa: PLW2901
+        instead[goes ^ 1] = stays
         m.face[stays] = m.face[goes ^ 1]
         m.forget_edge(goes)
     return b

@@ -31,7 +31,7 @@ from halfmesh._jit.compiler import apart, bit_count, bit_length, cache_folder
 from halfmesh._jit.gears import compiling_always
 from halfmesh._jit.kernels import Kernel, Operation, all_kernels, inline_kernel, kernel, operation, twofold
 from halfmesh._jit.room import filled, grown
-from halfmesh._jit.rules import Rule, rule
+from halfmesh._jit.rules import Rule, asking, rule
 from halfmesh._jit.threads import n_threads, parallel
 
 __all__ = [
@@ -45,6 +45,7 @@ __all__ = [
     "all_kernels",
     "apart",
     "array_of",
+    "asking",
     "bit_count",
     "bit_length",
     "cache_folder",

@@ -29,6 +29,10 @@ class Views:
     rules: Mapping[Any, Any] = {}
     """The rules that mean another kernel on this carrier, see `CarrierType.bind`."""
 
+    def ask(self, rule: Any, index: int) -> Any:
+        """The answer of a rule, interpreted, whatever it means here."""
+        return rule.bound(self, index)
+
 
 def is_bound(form: Any) -> bool:
     """Whether rules are bound anew for this argument, in its interpreted form."""

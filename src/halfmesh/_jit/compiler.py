@@ -80,17 +80,6 @@ class _Intrinsic:
         return self.name
 
 
-apart = _Intrinsic("apart", lambda: None, lambda: _never_inlined())
-"""``apart()`` in the body of a kernel keeps its code out of its callers: for the rare case in a small kernel, which
-LLVM would otherwise write into all of them. Twenty pens with the growth of the journal took 8 s to optimize."""
-
-bit_count = _Intrinsic("bit_count", int.bit_count, lambda: _on_bits("ctpop"))
-"""``bit_count(x)`` in a kernel: how many bits of an int64 that is not negative are 1, by one machine instruction."""
-
-bit_length = _Intrinsic("bit_length", int.bit_length, lambda: _on_bits("ctlz"))
-"""``bit_length(x)`` in a kernel: the place behind the highest 1 of an int64 that is not negative; 0 for 0."""
-
-
 @functools.cache
 def _never_inlined() -> Any:
     from numba.core import types as nbtypes
@@ -124,6 +113,17 @@ def _on_bits(instruction: str) -> Any:
         return nbtypes.int64(nbtypes.int64), generate
 
     return on_bits
+
+
+apart = _Intrinsic("apart", lambda: None, _never_inlined)
+"""``apart()`` in the body of a kernel keeps its code out of its callers: for the rare case in a small kernel, which
+LLVM would otherwise write into all of them. Twenty pens with the growth of the journal took 8 s to optimize."""
+
+bit_count = _Intrinsic("bit_count", int.bit_count, lambda: _on_bits("ctpop"))
+"""``bit_count(x)`` in a kernel: how many bits of an int64 that is not negative are 1, by one machine instruction."""
+
+bit_length = _Intrinsic("bit_length", int.bit_length, lambda: _on_bits("ctlz"))
+"""``bit_length(x)`` in a kernel: the place behind the highest 1 of an int64 that is not negative; 0 for 0."""
 
 
 @functools.cache
@@ -299,6 +299,7 @@ def _writable_folder() -> str | None:
 
 def _disk_cache(function: types.FunctionType, stamp: str) -> FunctionCache | None:
     """Numba's cache with our key; None where nothing can be written, which costs the recompilation and no more."""
+    from numba.core import types as nbtypes
     from numba.core.caching import CompileResultCacheImpl, FunctionCache, _CacheLocator
 
     folder = _writable_folder()
@@ -331,7 +332,10 @@ def _disk_cache(function: types.FunctionType, stamp: str) -> FunctionCache | Non
         _impl_class = Implementation
 
         def _index_key(self, sig: Any, codegen: Any) -> Any:
-            return (sig, codegen.magic_tuple())  # the stamp knows the code, and what closures hold
+            # The stamp knows the code, and what closures hold. The types are named, not pickled: the index of a kernel
+            # is to be read where the carriers that others have called it with were never declared.
+            is_named = not any(isinstance(t, nbtypes.Callable) for t in sig)
+            return (", ".join(t.name for t in sig) if is_named else sig, codegen.magic_tuple())
 
         def load_overload(self, sig: Any, target_context: Any) -> Any:
             try:

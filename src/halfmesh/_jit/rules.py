@@ -11,14 +11,16 @@ import numpy as np
 
 from halfmesh._jit.arguments import arrays, interpretable, is_bound
 from halfmesh._jit.compiler import dispatcher
-from halfmesh._jit.kernels import Kernel, positional
+from halfmesh._jit.kernels import Kernel, Operation, positional
 from halfmesh._jit.loops import inlined
 
-__all__ = ["Rule", "rule"]
+__all__ = ["Rule", "asking", "rule"]
 
 P = ParamSpec("P")
 R = TypeVar("R")
 F = TypeVar("F", bound=Callable[..., Any])
+
+RULE: Any = None  # the templates below find it in a scope made for each rule
 
 
 class Rule(Kernel[P, R]):
@@ -35,7 +37,7 @@ class Rule(Kernel[P, R]):
 
         def follow(t: Any, *rest: Any) -> Any:
             own: Any = self
-            return t.rules.get(own, own).plain(t, *rest)
+            return t.rules.get(own, own).plain(t, *map(int, rest))  # NumPy's integers would overflow among bits
 
         return follow
 
@@ -50,11 +52,12 @@ class Rule(Kernel[P, R]):
     def __call__(self, *args: P.args, **kwargs: P.kwargs) -> R:
         t, *rest = positional(self.py_func, args, kwargs) if kwargs else args
         form = interpretable(t)
-        meant: Any = self.meant_by(form)
         are_many = any(isinstance(x, np.ndarray) for x in rest)
         if are_many and is_bound(form):
-            return _mapped(meant, t, *rest)  # type: ignore[no-any-return]
-        return meant.plain(arrays(t) if are_many else form, *rest)  # type: ignore[no-any-return]
+            return _mapped(self.meant_by(form), t, *rest)  # type: ignore[no-any-return]
+        if is_bound(form):
+            return self.bound(form, *rest)  # type: ignore[no-any-return]
+        return self.plain(arrays(t) if are_many else form, *rest)  # type: ignore[call-arg]
 
 
 def rule(function: Callable[P, R]) -> Rule[P, R]:
@@ -62,10 +65,22 @@ def rule(function: Callable[P, R]) -> Rule[P, R]:
     return Rule(function)
 
 
+# -- from Python, where interpreting a bound rule takes too long -------------------------------------------------------
+
+
+def _ask(t: Any, x: int) -> Any:
+    return RULE(t, x)
+
+
+@functools.cache
+def asking(rule: Rule[Any, Any]) -> Operation[Any, Any]:
+    """A rule as a kernel that Python calls for one element at a time; it means what its carrier says."""
+    made = types.FunctionType(_ask.__code__, {**_ask.__globals__, "RULE": rule}, f"ask_{rule.__name__}")
+    made.__module__, made.__qualname__ = rule.__module__, f"ask_{rule.__name__}"
+    return Operation(made)
+
+
 # -- over arrays, where a carrier binds a rule anew --------------------------------------------------------------------
-
-
-RULE: Any = None  # found by the template below in a scope made for each rule
 
 
 def _map(t: Any, elements: Any, out: Any) -> None:

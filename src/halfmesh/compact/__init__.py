@@ -1,3 +1,21 @@
-"""The same words, fewer bytes: a read-only half-edge mesh of 4.6 bits per edge, its directories included."""
+"""Representations that are only read: the words of `core.navigation`, and fewer bytes.
 
-from halfmesh.compact import navigation as navigation  # binds the rules, before anything is asked of a compact mesh
+::
+
+    triangles . triangle_rules        26 bytes a triangle: origin and twin, the rest is arithmetic
+
+    encoding                          4.6 bits an edge: two trees as balanced parentheses
+       |
+    decoding . files . checking
+       |
+    navigation . directory
+       |
+    parentheses . words . topology
+
+    carrier                           what both are: a carrier that binds the rules anew
+"""
+
+from halfmesh.compact import navigation as navigation  # binds the rules: a pickled compact mesh imports this alone
+from halfmesh.compact.triangles import TriangleTopology
+
+__all__ = ["TriangleTopology"]

@@ -97,4 +97,4 @@ def _count_exterior(t: Any) -> int:
 
 @kernel
 def _leaves(t: Any, h: int, v: int) -> bool:
-    return h >= 0 and origin_of(t, h) == v and is_exterior(t, h)  # type: ignore[no-any-return]
+    return h >= 0 and origin_of(t, h) == v and is_exterior(t, h)

@@ -13,8 +13,8 @@ bytes   what
         only), its first byte, and eight zeros
 ======  ====================================================================================================
 
-Each array begins at a multiple of 64 bytes, and zeros follow it up to one. Which arrays a compact mesh has says `topology`; others may stand in the
-same file, with names of their own.
+Each array begins at a multiple of 64 bytes, and zeros follow it up to one. Which arrays a compact mesh has says
+`topology`; others may stand in the same file, under names that begin with a dot.
 """
 
 from __future__ import annotations
@@ -68,7 +68,7 @@ def _little(array: NDArray[Any]) -> NDArray[Any]:
     return little
 
 
-def _pieces(a: Arrays, arrays: dict[str, NDArray[Any]]) -> Iterator[bytes | memoryview]:
+def _pieces(a: Any, arrays: dict[str, NDArray[Any]]) -> Iterator[bytes | memoryview]:
     counts, sizes = a.counts, a.sizes
     figures = [*sizes, counts[VERTEX_SLOTS], counts[FACE_SLOTS], counts[N_EXTERIOR]]
     head = MAGIC + np.array([VERSION, len(arrays)], "<u4").tobytes() + np.array(figures, _FIGURES).tobytes()
@@ -83,7 +83,7 @@ def _pieces(a: Arrays, arrays: dict[str, NDArray[Any]]) -> Iterator[bytes | memo
     yield head.ljust(HEADER, b"\0")
     yield table.tobytes().ljust(_aligned(HEADER + ROW * len(arrays)) - HEADER, b"\0")
     for array in arrays.values():
-        yield array.tobytes() if array.nbytes < ALIGNMENT else memoryview(array).cast("B")
+        yield array.tobytes() if array.nbytes < ALIGNMENT else array.data.cast("B")
         yield bytes(_aligned(array.nbytes) - array.nbytes)
 
 
@@ -91,7 +91,7 @@ def _aligned(n: int) -> int:
     return -(-n // ALIGNMENT) * ALIGNMENT
 
 
-# -- reading -------------------------------------------------------------------------------------------------------------
+# -- reading -----------------------------------------------------------------------------------------------------------
 
 
 def read(path: str | os.PathLike[str]) -> tuple[CompactTopology, dict[str, NDArray[Any]]]:
@@ -100,7 +100,7 @@ def read(path: str | os.PathLike[str]) -> tuple[CompactTopology, dict[str, NDArr
     Returns
     -------
     (CompactTopology, dict of str to ndarray)
-        All arrays are read-only. The file is to stay as it is while they are in use.
+        The file is to stay as it is while they are in use; what is written into the other arrays does not reach it.
 
     Raises
     ------
@@ -141,7 +141,7 @@ def _mapped(place: str) -> NDArray[np.uint8]:
     size = os.stat(place).st_size
     if size == 0:
         return np.empty(0, np.uint8)
-    return np.asarray(np.memmap(place, np.uint8, "r"))
+    return np.asarray(np.memmap(place, np.uint8, "c"))
 
 
 def _array(memory: NDArray[np.uint8], row: Any, place: str, at: int) -> tuple[str, NDArray[Any]]:

@@ -1,8 +1,9 @@
 """Balanced parentheses of two kinds in one sequence: matching, counting, and finding the n-th.
 
-`depth` is how many parentheses of a kind are open. The partner of one is where the depth first (or last) is what it was.
-A search goes through the words of the block it begins in; then over the blocks of this superblock, by the least depth
-that each record tells; then over groups of 16 superblocks, of 16 groups and so on, up and down again, by `minima`.
+`depth` is how many parentheses of a kind are open. The partner of one is where the depth is first, or was last, what it
+is there. A search goes through the words of the block it begins in; then over the blocks of this superblock, by
+the least depth that each record tells; then over groups of 16 superblocks, of 16 groups and so on, up and down again,
+by `minima`.
 
 =============  =============  ========================================================================================
 column         one per        holds
@@ -46,8 +47,8 @@ __all__ = [
     "is_tree",
     "match",
     "opening",
-    "opens_before",
     "openings_before",
+    "opens_before",
     "select",
 ]
 
@@ -76,7 +77,7 @@ def match(t: Any, i: Any) -> Any:
     return opening(t, i, kind)
 
 
-# -- to the right --------------------------------------------------------------------------------------------------------
+# -- to the right ------------------------------------------------------------------------------------------------------
 
 
 @rule
@@ -146,7 +147,7 @@ def _first_super(t: Any, s: Any, goal: Any, kind: Any) -> Any:
     return i
 
 
-# -- to the left ---------------------------------------------------------------------------------------------------------
+# -- to the left -------------------------------------------------------------------------------------------------------
 
 
 @rule
@@ -222,7 +223,7 @@ def _last_super(t: Any, s: Any, goal: Any, kind: Any) -> Any:
     return i
 
 
-# -- sixteen at once -----------------------------------------------------------------------------------------------------
+# -- sixteen at once ---------------------------------------------------------------------------------------------------
 
 
 @rule
@@ -256,7 +257,7 @@ def _highest(found: Any) -> Any:
     return max(bit_length(found) - 1, 0)
 
 
-# -- counting ------------------------------------------------------------------------------------------------------------
+# -- counting ----------------------------------------------------------------------------------------------------------
 
 
 @rule
@@ -305,7 +306,7 @@ def depth_at(t: Any, i: Any, kind: Any) -> Any:
     return depth + bit_count(opens_of(t.bits[w], flip) & mask) - bit_count(closes_of(t.bits[w], flip) & mask)
 
 
-# -- the n-th ------------------------------------------------------------------------------------------------------------
+# -- the n-th ----------------------------------------------------------------------------------------------------------
 
 
 @rule

@@ -8,17 +8,24 @@ from typing import TYPE_CHECKING, Any, Generic, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
+from halfmesh.core.navigation import edge_slots, face_slots, halfedge_slots, vertex_slots
 from halfmesh.core.topology import DELETED
 from halfmesh.errors import ElementError, StaleElementError
 from halfmesh.mesh.elements import Element, made
 
 if TYPE_CHECKING:
-    from halfmesh.mesh.mesh import Mesh
+    from halfmesh.mesh.asking import Asked
 
 __all__ = ["Collection"]
 
 E = TypeVar("E", bound=Element)
 
+_SLOTS = {
+    "vertex": vertex_slots.plain,
+    "halfedge": halfedge_slots.plain,
+    "edge": edge_slots.plain,
+    "face": face_slots.plain,
+}
 _PER_SLOT = {"vertex": 1, "halfedge": 1, "edge": 2, "face": 1}  # places in the marked column
 
 
@@ -30,14 +37,17 @@ class Collection(Generic[E]):
 
     __slots__ = ("_kind", "_mesh")
 
-    def __init__(self, mesh: Mesh, kind: type[E]) -> None:
+    def __init__(self, mesh: Asked, kind: type[E]) -> None:
         self._mesh = mesh
         self._kind = kind
 
     @property
     def indices(self) -> NDArray[np.int64]:
         """The indices of the living elements, ascending."""
-        marks = getattr(self._mesh.topology, self._kind.column)[:: _PER_SLOT[self._kind.kind]]
+        t, kind = self._mesh._t, self._kind.kind
+        if len(self) == (slots := _SLOTS[kind](t)):
+            return np.arange(slots)
+        marks = getattr(self._mesh.topology, self._kind.column)[:: _PER_SLOT[kind]]
         return np.flatnonzero(marks != DELETED)
 
     def __len__(self) -> int:
@@ -70,7 +80,7 @@ class Collection(Generic[E]):
             return element.index
         if isinstance(element, bool | np.bool_) or not isinstance(element, int | np.integer):
             raise ElementError(f"expected a {name} or its index, got {element!r}")
-        slots = len(getattr(self._mesh.topology, self._kind.column)) // _PER_SLOT[name]
+        slots = _SLOTS[name](self._mesh._t)
         if not 0 <= element < slots:
             raise ElementError(
                 f"no {name} {element}: indices run from 0 to {slots - 1}"

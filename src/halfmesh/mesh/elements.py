@@ -56,14 +56,12 @@ class Vertex(Element):
     @property
     def is_boundary(self) -> bool:
         """Whether it touches a gap. An isolated vertex does not. Complexity: O(1)."""
-        self._check()
-        return bool(navigation.is_boundary_vertex.plain(self._t, self.index))
+        return self._is(navigation.is_boundary_vertex)
 
     @property
     def is_isolated(self) -> bool:
         """Whether no edge touches it."""
-        self._check()
-        return bool(navigation.is_isolated.plain(self._t, self.index))
+        return self._is(navigation.is_isolated)
 
     def outgoing(self) -> Iterator[Halfedge]:
         """The halfedges that leave it, counter-clockwise; at a boundary vertex the exterior one comes last."""
@@ -141,8 +139,7 @@ class Halfedge(Element):
     @property
     def is_exterior(self) -> bool:
         """Whether there is no face on its left."""
-        self._check()
-        return bool(navigation.is_exterior.plain(self._t, self.index))
+        return self._is(navigation.is_exterior)
 
     @property
     def is_boundary(self) -> bool:
@@ -185,8 +182,7 @@ class Edge(Element):
     @property
     def is_boundary(self) -> bool:
         """Whether a face is missing on one side, or on both."""
-        self._check()
-        return bool(navigation.is_boundary_edge.plain(self._t, self.index))
+        return self._is(navigation.is_boundary_edge)
 
     @property
     def length(self) -> float:

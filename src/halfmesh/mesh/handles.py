@@ -6,7 +6,7 @@ nothing in it that asks whether all is well: see `core.epochs` for what happens 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from typing import TYPE_CHECKING, Any, ClassVar, Generic, NoReturn, TypeVar, overload
 
 from halfmesh.core.epochs import successor_of
@@ -14,14 +14,14 @@ from halfmesh.core.topology import DELETED, EDGE_SLOTS, FACE_SLOTS, VERTEX_SLOTS
 from halfmesh.errors import InvalidMeshError, StaleElementError
 
 if TYPE_CHECKING:
-    from halfmesh.mesh.mesh import Mesh
+    from halfmesh.mesh.asking import Asked
 
-__all__ = ["Element", "made", "step"]
+__all__ = ["KINDS", "Element", "made", "step"]
 
 R = TypeVar("R")
 E = TypeVar("E", bound="Element")
 
-_KINDS: dict[str, type[Element]] = {}
+KINDS: dict[str, type[Element]] = {}
 _PLACES = {"vertex": (VERTEX_SLOTS, 0), "halfedge": (EDGE_SLOTS, 1), "edge": (EDGE_SLOTS, 0), "face": (FACE_SLOTS, 0)}
 
 _new: Any = object.__new__
@@ -38,18 +38,26 @@ class Element:
     index: int
     _t: Any  # the interpreted carrier of the mesh
 
+    _family: ClassVar[Mapping[str, type[Element]]] = KINDS  # the classes of the handles that its words give
+    _form: ClassVar[str] = "plain"  # the form of kernels that walks its carrier
+    _steps: ClassVar[dict[str, tuple[Any, str]]]  # the words that follow one rule: the rule, and the kind it leads to
+
     def __init_subclass__(cls) -> None:
         if "kind" in vars(cls):  # not for classes that users derive
-            _KINDS[cls.kind] = cls
+            KINDS[cls.kind] = cls
 
-    def __init__(self, mesh: Mesh, index: int | Element) -> None:
+    def __new__(cls, mesh: Asked, index: int | Element) -> Element:
+        """A handle of the family that the mesh has."""
+        return _new(mesh._family[cls.kind] if KINDS.get(cls.kind) is cls else cls)  # type: ignore[no-any-return]
+
+    def __init__(self, mesh: Asked, index: int | Element) -> None:
         self.index = getattr(mesh, self.plural).resolve(index)
         self._t = mesh.topology.__views__()
 
     @property
-    def mesh(self) -> Mesh:
+    def mesh(self) -> Any:
         """The mesh that the element belongs to. A handle alone does not keep it."""
-        mesh: Mesh | None = self._t.mesh()
+        mesh = self._t.mesh()
         if mesh is None:
             raise StaleElementError(f"the mesh of {self.kind} {self.index} is gone; keep a name for it")
         return mesh
@@ -96,8 +104,9 @@ class Element:
     def _walk(self, circulator: Any, kind: type[E]) -> Iterator[E]:
         """Handles along a circulator; a corrupt mesh raises instead of walking forever."""
         self._check()
-        t, value = self._t, circulator.value and circulator.value.plain
-        step, end = circulator.step.plain, circulator.start.plain(t, self.index)
+        t, form, kind = self._t, self._form, self._family[kind.kind]  # type: ignore[assignment]
+        value = circulator.value and getattr(circulator.value, form)
+        step, end = getattr(circulator.step, form), getattr(circulator.start, form)(t, self.index)
         at = end
         if at < 0:
             return
@@ -109,6 +118,11 @@ class Element:
             if at == end:
                 return
         raise InvalidMeshError(f"the walk around {self.kind} {self.index} does not close; see mesh.check()")
+
+    def _is(self, rule: Any) -> bool:
+        """The answer of a rule that is a question."""
+        self._check()
+        return bool(getattr(rule, self._form)(self._t, self.index))
 
     def _count(self, circulator: Any) -> int:
         return sum(1 for _ in self._walk(circulator, type(self)))
@@ -174,6 +188,9 @@ class _Step(Generic[R]):
 
     def __set_name__(self, owner: type[Element], name: str) -> None:
         self.owner, self.name = owner, name
+        if "_steps" not in vars(owner):
+            owner._steps = {}
+        owner._steps[name] = self.rule, self.kind
 
     @overload
     def __get__(self, instance: None, owner: type) -> property: ...
@@ -185,7 +202,7 @@ class _Step(Generic[R]):
         return made.__get__(instance, owner)
 
     def _getter(self) -> Callable[[Any], Any]:
-        rule, kind, new, word = self.rule.plain, _KINDS[self.kind], _new, self.name
+        rule, kind, new, word = self.rule.plain, KINDS[self.kind], _new, self.name
         per_slot = 2 if self.owner.kind == "edge" else 1
 
         def get(self: Any) -> Any:

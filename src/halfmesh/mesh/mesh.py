@@ -14,11 +14,10 @@ from typing import Any, TypeVar
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from halfmesh.core import counting, invariants, tables
+from halfmesh.core import invariants
 from halfmesh.core.construction import Defective, construct
 from halfmesh.core.facelist import FaceList, as_corner_data, as_face_list, as_indices
 from halfmesh.core.notes import CORNERS, EDGES, FACES, VERTICES
-from halfmesh.core.search import find_halfedge
 from halfmesh.core.topology import (
     EDGE_SLOTS,
     FACE_SLOTS,
@@ -30,14 +29,11 @@ from halfmesh.core.topology import (
     Topology,
 )
 from halfmesh.core.wire import with_wire
-from halfmesh.errors import InvalidMeshError, PreconditionError
+from halfmesh.errors import InvalidMeshError
 from halfmesh.mesh.attributes import AttributeTable, Column
-from halfmesh.mesh.collections import Collection
 from halfmesh.mesh.editing import Editable
 from halfmesh.mesh.editing.base import TABLES
-from halfmesh.mesh.elements import Edge, Face, Halfedge, Vertex, made
 from halfmesh.mesh.positions import as_points
-from halfmesh.mesh.summary import Summary, summarize
 from halfmesh.mesh.transactions import Undoable
 
 __all__ = ["Mesh"]
@@ -141,28 +137,6 @@ class Mesh(Editable, Undoable):
         topology.owner = weakref.ref(self)
         self._look_again()
 
-    # -- elements ------------------------------------------------------------------------------------------------
-
-    @property
-    def vertices(self) -> Collection[Vertex]:
-        """The vertices: iterate, ``len``, ``[index]``, ``in``."""
-        return Collection(self, Vertex)
-
-    @property
-    def halfedges(self) -> Collection[Halfedge]:
-        """The halfedges: iterate, ``len``, ``[index]``, ``in``."""
-        return Collection(self, Halfedge)
-
-    @property
-    def edges(self) -> Collection[Edge]:
-        """The edges: iterate, ``len``, ``[index]``, ``in``."""
-        return Collection(self, Edge)
-
-    @property
-    def faces(self) -> Collection[Face]:
-        """The faces: iterate, ``len``, ``[index]``, ``in``."""
-        return Collection(self, Face)
-
     # -- what is stored ------------------------------------------------------------------------------------------
 
     @property
@@ -179,79 +153,6 @@ class Mesh(Editable, Undoable):
     def topology(self) -> Topology:
         """The columns ``next prev origin face vertex_halfedge face_halfedge`` as read-only arrays, without a copy."""
         return self._topology
-
-    # -- asking ----------------------------------------------------------------------------------------------------
-
-    def summary(self) -> Summary:
-        """All the counts, topology, degrees, memory and building time; prints as a table. O(n)."""
-        return summarize(self)
-
-    # -- finding and walking ---------------------------------------------------------------------------------------
-
-    def find_halfedge(self, u: Vertex | int, v: Vertex | int) -> Halfedge | None:
-        """The halfedge from `u` to `v`, or None. Complexity: O(smaller degree).
-
-        Where edges are parallel, one of them.
-        """
-        h = find_halfedge.plain(self._t, self.vertices.resolve(u), self.vertices.resolve(v))
-        return None if h < 0 else made(Halfedge, self._t, h)
-
-    def boundary_loops(self) -> list[Ints]:
-        """The halfedges of each boundary loop, along next: a list of int32 arrays. O(n) after a change, then kept."""
-        halfedges, offsets = self._kept("loops", counting.boundary_loops)
-        return [loop.copy() for loop in np.split(halfedges, offsets[1:-1])] if len(offsets) > 1 else []
-
-    # -- arrays ----------------------------------------------------------------------------------------------------
-
-    def face_vertices(self) -> tuple[Ints, Ints]:
-        """The vertices of each face as (indices, offsets): the face list that made the mesh. O(n)."""
-        return tables.face_vertices(self._topology)
-
-    def face_neighbors(self) -> tuple[Ints, Ints]:
-        """The faces across the edges of each face as (indices, offsets); boundary edges are left out. O(n)."""
-        return tables.face_neighbors(self._topology)
-
-    def vertex_neighbors(self) -> tuple[Ints, Ints]:
-        """The ring of each vertex as (indices, offsets), counter-clockwise. O(n)."""
-        return tables.vertex_neighbors(self._topology)
-
-    def vertex_faces(self) -> tuple[Ints, Ints]:
-        """The faces around each vertex as (indices, offsets), counter-clockwise. O(n)."""
-        return tables.vertex_faces(self._topology)
-
-    def vertex_degrees(self) -> Ints:
-        """Number of edges at each vertex; a loop edge counts twice. O(n)."""
-        return tables.vertex_degrees(self._topology)
-
-    def face_degrees(self) -> Ints:
-        """Number of corners of each face. O(n)."""
-        return tables.face_degrees(self._topology)
-
-    def corner_halfedges(self) -> Ints:
-        """The halfedge of each corner, in the order of the face list: where corner data belong. O(n)."""
-        return tables.corner_halfedges(self._topology)[0]
-
-    def triangles(self) -> Ints:
-        """The vertices of the faces, shape (n, 3), of a triangle mesh; row `i` belongs to ``faces.indices[i]``.
-
-        Raises
-        ------
-        PreconditionError
-            A face is not a triangle.
-        """
-        if not self.is_triangular:
-            degrees = self.face_degrees()
-            f = int(np.flatnonzero((degrees != 3) & (self._topology.face_halfedge >= 0))[0])
-            raise PreconditionError(f"face {f} has {degrees[f]} corners; face_vertices() gives faces of any degree")
-        return tables.triangles(self._topology)
-
-    def edge_vertices(self) -> Ints:
-        """The two ends of each edge, shape (n, 2). O(n)."""
-        return tables.edge_vertices(self._topology)
-
-    def edge_faces(self) -> Ints:
-        """The faces left and right of each edge, shape (n, 2); -1 where there is none. O(n)."""
-        return tables.edge_faces(self._topology)
 
     # -- the whole -------------------------------------------------------------------------------------------------
 
@@ -292,18 +193,6 @@ class Mesh(Editable, Undoable):
             setattr(self, name, state[name])
         for name in TABLES:
             getattr(self, name)._adopt(state[name])
-
-    def __repr__(self) -> str:
-        kind = "with boundary" if self.has_boundary else "closed"
-        counts = (
-            (self.n_vertices, "vertex", "vertices"),
-            (self.n_edges, "edge", "edges"),
-            (self.n_faces, "face", "faces"),
-        )
-        return f"<Mesh: {', '.join(f'{n} {one if n == 1 else many}' for n, one, many in counts)}, {kind}>"
-
-    def _repr_html_(self) -> str:
-        return self.summary()._repr_html_()
 
     # -- a carrier: kernels take a mesh as its topology --------------------------------------------------------------
 

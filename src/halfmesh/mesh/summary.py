@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 if TYPE_CHECKING:
-    from halfmesh.mesh.mesh import Mesh
+    from halfmesh.mesh.asking import Asked
 
 __all__ = ["Summary", "duration", "summarize"]
 
@@ -39,6 +39,7 @@ class Summary:
     vertex_degree_min: int
     vertex_degree_mean: float
     vertex_degree_max: int
+    kind: str
     topology_bytes: int
     attribute_bytes: int
     build_seconds: float
@@ -82,7 +83,7 @@ class Summary:
             f"<td style='text-align:left'>{html.escape(value)}</td></tr>"
             for label, value in self.rows()
         )
-        return f"<table><caption>halfmesh.Mesh</caption>{rows}</table>"
+        return f"<table><caption>halfmesh.{self.kind}</caption>{rows}</table>"
 
 
 def _split(*numbers: int) -> str:
@@ -111,7 +112,7 @@ def _histogram(degrees: NDArray[np.integer]) -> dict[int, int]:
     return dict(zip(values.tolist(), counts.tolist(), strict=True))
 
 
-def summarize(mesh: Mesh) -> Summary:
+def summarize(mesh: Asked) -> Summary:
     """Collect the summary of a mesh. O(n)."""
     degrees = mesh.vertex_degrees()[mesh.vertices.indices]
     return Summary(
@@ -132,6 +133,7 @@ def summarize(mesh: Mesh) -> Summary:
         vertex_degree_min=int(degrees.min()) if len(degrees) else 0,
         vertex_degree_mean=float(degrees.mean()) if len(degrees) else 0.0,
         vertex_degree_max=int(degrees.max()) if len(degrees) else 0,
+        kind=type(mesh).__name__,
         topology_bytes=mesh.topology.nbytes,
         attribute_bytes=sum(t.nbytes for t in (mesh.vertex_data, mesh.halfedge_data, mesh.edge_data, mesh.face_data)),
         build_seconds=mesh.build_seconds,

@@ -131,6 +131,8 @@ def collapse(t: Any, h: int, weight: float = 1.0) -> int:
     b = contract(t, h)
     if left:
         _close_face(t, n, p)
+        if op == p ^ 1:  # the edge between the two triangles, parallel to `h`, is gone: n stands in its place
+            op = n
     if right:
         _close_face(t, op, on)
     changed(t)

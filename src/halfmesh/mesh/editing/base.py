@@ -10,7 +10,7 @@ from halfmesh._jit import Kernel, Operation, lowered
 from halfmesh.core.statuses import DELETED_ELEMENT, MISSING_ELEMENT, REASONS
 from halfmesh.core.topology import NEWS
 from halfmesh.errors import ElementError, InvalidMeshError, StaleElementError, TopologyError
-from halfmesh.mesh.counts import Counted
+from halfmesh.mesh.asking import Asked
 from halfmesh.mesh.elements import Edge, Element, Halfedge, Vertex
 
 if TYPE_CHECKING:
@@ -18,7 +18,6 @@ if TYPE_CHECKING:
 
     from numpy.typing import ArrayLike, NDArray
 
-    from halfmesh.mesh.attributes import AttributeTable
 
 __all__ = ["TABLES", "Base", "as_fraction", "as_point", "as_xyz"]
 
@@ -29,14 +28,10 @@ _new: Any = object.__new__
 _ABOUT_AS_LONG_AS = 12  # elements: what an operator costs when it is interpreted, counted in steps of a loop
 
 
-class Base(Counted):
+class Base(Asked):
     """The ways from a method to a kernel and back."""
 
     has_points: bool
-    vertex_data: AttributeTable
-    halfedge_data: AttributeTable
-    edge_data: AttributeTable
-    face_data: AttributeTable
     _savepoints: list[Any]
 
     def _index(self, kind: type[Element], element: Any) -> int:
