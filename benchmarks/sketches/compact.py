@@ -103,9 +103,8 @@ def trees(mesh: hm.Mesh) -> None:
         twin = twin_of(made, h)
         near = [100 * np.mean(h >> bits == twin >> bits) for bits in (5, 8, 12)]
         nanoseconds = 1e9 * best(asked(twin_of), made, h) / CALLS
-        print(
-            f"  {name:16}{1e6 * seconds / mesh.n_edges:8.3f}{nanoseconds:12.1f}   {near[0]:.0f} {near[1]:.0f} {near[2]:.0f}"
-        )
+        shares = " ".join(f"{share:.0f}" for share in near)
+        print(f"  {name:16}{1e6 * seconds / mesh.n_edges:8.3f}{nanoseconds:12.1f}   {shares}")
     encoding._plant_trees = breadth_first
 
 
