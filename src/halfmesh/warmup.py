@@ -78,6 +78,7 @@ def jobs() -> list[Job]:
         ("changing", lambda _: _change()),
         ("cutting and sewing", lambda _: _sew()),
         ("triangulating", lambda _: _triangulate()),
+        ("reading in little memory", _read_compact),
         ("walking in kernels", lambda _: _walk(hm.shapes.cube(), 0)),
         ("smoothing", lambda _: _smooth()),
         ("holding in little memory", _hold_in_little),
@@ -282,6 +283,26 @@ def _triangulate() -> None:
             hm.triangulate_face_status(mesh, points, 0)
             hm.triangulate_face(mesh, points, 0)
         hm.triangulate(mesh)
+
+
+def _read_compact(folder: Path) -> None:
+    """What is only read, also with wire, holes and several components; and the words that handles ask compiled."""
+    several = hm.shapes.grid(3, 3)
+    several.make_hole(4)
+    several.append(hm.Mesh([], edges=[[0, 1]], n_vertices=2))
+    for mesh in (several, hm.shapes.icosphere(1)):
+        small = hm.CompactMesh(mesh, maps=True)
+        small.to_mesh()
+        small.save(folder / "mesh.hmc")
+        hm.CompactMesh.load(folder / "mesh.hmc")
+    for handles, words in (
+        (small.halfedges, "next prev twin ccw cw origin target face edge"),
+        (small.edges, "halfedge"),
+        (small.faces, "halfedge"),
+        (small.vertices, "halfedge"),
+    ):
+        for word in words.split():
+            getattr(handles[0], word)
 
 
 @hm.kernel
