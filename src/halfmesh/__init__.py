@@ -67,11 +67,13 @@ if TYPE_CHECKING:
     from halfmesh import algorithms, geometry, io, shapes, testing, viewer
     from halfmesh.algorithms import triangulate, triangulate_face, triangulate_face_status, triangulated
     from halfmesh.io import load, save
+    from halfmesh.shapes import delaunay
 
 __version__ = "0.1.0"
 
 _ROOMS = ("algorithms", "geometry", "io", "shapes", "testing", "viewer")
 _LATER = dict.fromkeys(_ROOMS, "") | {
+    "delaunay": "shapes",
     "load": "io",
     "save": "io",
     "triangulate": "algorithms",
@@ -111,6 +113,7 @@ __all__ = [
     "algorithms",
     "ccw_of",
     "cw_of",
+    "delaunay",
     "edge_of",
     "edge_slots",
     "edges_around",
