@@ -75,6 +75,7 @@ def jobs() -> list[Job]:
         ("measuring in kernels", lambda _: _measure_one(hm.shapes.cube())),
         ("writing and reading OFF", lambda folder: _there_and_back(folder / "mesh.off")),
         ("writing and reading OBJ", lambda folder: _there_and_back(folder / "mesh.obj")),
+        ("writing and reading the files of Triangle", _read_tables),
         ("reading OFF in other forms", _read_other_forms),
         ("changing", lambda _: _change()),
         ("cutting and sewing", lambda _: _sew()),
@@ -144,6 +145,15 @@ def _decorated() -> hm.Mesh:
     mesh.vertex_data["color"] = np.full((mesh.n_vertices, 4), 0.5)
     mesh.halfedge_data["texcoord"] = np.zeros((mesh.n_halfedges, 2))
     return mesh
+
+
+def _read_tables(folder: Path) -> None:
+    mesh = hm.shapes.tetrahedron()
+    hm.save(mesh, folder / "mesh.neigh")
+    hm.load(folder / "mesh.neigh")
+    (folder / "mesh.ele").write_text("1 3\n0 0 1 9\n")
+    with contextlib.suppress(hm.FormatError):
+        hm.load(folder / "mesh.ele")
 
 
 def _read_other_forms(folder: Path) -> None:
