@@ -66,13 +66,16 @@ from halfmesh.mesh import Edge, Face, Halfedge, Mesh, Vertex
 if TYPE_CHECKING:
     from halfmesh import algorithms, geometry, io, shapes, testing, viewer
     from halfmesh.algorithms import triangulate, triangulate_face, triangulate_face_status, triangulated
+    from halfmesh.algorithms.polylla import PolyllaReport, polylla
     from halfmesh.io import load, save
 
 __version__ = "0.1.0"
 
 _ROOMS = ("algorithms", "geometry", "io", "shapes", "testing", "viewer")
 _LATER = dict.fromkeys(_ROOMS, "") | {
+    "PolyllaReport": "algorithms",
     "load": "io",
+    "polylla": "algorithms",
     "save": "io",
     "triangulate": "algorithms",
     "triangulate_face": "algorithms",
@@ -104,6 +107,7 @@ __all__ = [
     "HalfmeshError",
     "InvalidMeshError",
     "Mesh",
+    "PolyllaReport",
     "PreconditionError",
     "StaleElementError",
     "TopologyError",
@@ -141,6 +145,7 @@ __all__ = [
     "opposite_face_of",
     "origin_of",
     "outgoing",
+    "polylla",
     "prev_of",
     "save",
     "shapes",
