@@ -144,38 +144,26 @@ def _order(points: Any, a: int, b: int) -> int:
 # -- seeds ---------------------------------------------------------------------------------------------------------
 
 
-def find_seeds(t: Any, marks: Bytes, n_edges: int) -> tuple[Ints, int, int]:
-    """A halfedge of every terminal edge, in the order of the edges; the numbers of boundary edges and of wire edges."""
+def find_seeds(t: Any, marks: Bytes, n_edges: int) -> tuple[Ints, int]:
+    """A halfedge of every terminal edge, in the order of the edges; and the number of wire edges."""
     pieces = ranges(n_edges)
-    found = parallel(_count_seeds.at(n_edges), [(t, marks, *piece) for piece in pieces])
-    n, n_boundary, n_wire = (sum(column) for column in zip(*found, strict=True))
-    seeds = np.empty(max(n, 1), dtype=np.int32)
-    places = np.cumsum([0, *(of_piece[0] for of_piece in found)]).tolist()
-    jobs = [(t, marks, seeds, place, *piece) for place, piece in zip(places, pieces, strict=False)]
-    parallel(_list_seeds.at(n_edges), jobs)
-    return seeds[:n], n_boundary, n_wire
+    rows = [np.empty(high - low + 1, dtype=np.int32) for low, high in pieces]
+    found = parallel(
+        _list_seeds.at(n_edges), [(t, marks, *job) for job in zip(rows, *zip(*pieces, strict=True), strict=True)]
+    )
+    return np.concatenate([row[:n] for row, (n, _) in zip(rows, found, strict=True)]), sum(n for _, n in found)
 
 
 @kernel
-def _count_seeds(t: Any, marks: Any, low: int, high: int) -> tuple[int, int, int]:
-    n, n_boundary, n_wire = 0, 0, 0
-    for e in range(low, high):
-        h = halfedge_of_edge(t, e)
-        a, b = marks[h], marks[twin_of(t, h)]
-        n += is_terminal(a, b)
-        n_boundary += (a ^ b) >= OUTSIDE
-        n_wire += (a & b) == OUTSIDE
-    return n, n_boundary, n_wire
-
-
-@kernel
-def _list_seeds(t: Any, marks: Any, seeds: Any, place: int, low: int, high: int) -> None:
+def _list_seeds(t: Any, marks: Any, seeds: Any, low: int, high: int) -> tuple[int, int]:
+    n, n_wire = 0, 0
     for e in range(low, high):
         h = halfedge_of_edge(t, e)
         g = twin_of(t, h)
-        if is_terminal(marks[h], marks[g]):
-            seeds[place] = g if marks[h] == OUTSIDE else h
-            place += 1
+        seeds[n] = g if marks[h] == OUTSIDE else h  # without a branch: to be overwritten if it is none
+        n += is_terminal(marks[h], marks[g])
+        n_wire += (marks[h] & marks[g]) == OUTSIDE
+    return n, n_wire
 
 
 @kernel

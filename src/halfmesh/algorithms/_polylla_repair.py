@@ -17,56 +17,68 @@ walked again until all are simple: at the latest, when they are single triangles
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
 from halfmesh._jit import kernel, parallel
 from halfmesh.algorithms._polylla_marks import CUT, PENDING, Bytes, Ints, is_internal
-from halfmesh.algorithms._polylla_travel import Travel, first_frontier
+from halfmesh.algorithms._polylla_travel import Walks
 from halfmesh.core.matching import parts
-from halfmesh.core.navigation import next_of, origin_of, target_of, twin_of
+from halfmesh.core.navigation import face_of, next_of, origin_of, target_of, twin_of
+from halfmesh.geometry._passes import ranges
 
-__all__ = ["Repair", "repair"]
-
-
-class Repair(NamedTuple):
-    """All polygons after the repair: those of the seeds first, what was cut off from them behind."""
-
-    seeds: Ints
-    degrees: Ints
+__all__ = ["repair"]
 
 
-def repair(t: Any, marks: Bytes, seeds: Ints, found: Travel, n_vertices: int) -> Repair:
-    """Cut the bad regions into simple polygons; marks the edges and corrects the degrees in place."""
-    bad, degrees = found.bad, found.degrees
+def repair(t: Any, marks: Bytes, seeds: Ints, walks: Walks, n_vertices: int) -> Walks:
+    """Cut the bad regions into simple polygons: each stays with the part that has its seed, the others come behind all.
+
+    Marks the edges that are cut, and writes the new corners where there is room.
+    """
+    bad = walks.bad
     if len(bad) == 0:
-        return Repair(seeds, degrees)
-    n_sides = int(degrees[bad].sum())
-    most = int(degrees[bad].max())
+        return walks
+    sides = walks.degrees[bad].astype(np.int64)
+    most = int(sides.max())
     jobs, made = [], []
-    for low, high in parts(len(bad), n_sides):
-        room = int(degrees[bad[low:high]].sum())
-        added, sizes = np.empty(room, dtype=np.int32), np.empty(room, dtype=np.int32)
+    place = walks.stretches[-1][1]
+    for low, high in parts(len(bad), int(sides.sum())):
+        room = int(3 * (sides[low:high] - 2).sum())  # when nothing but triangles is left
+        added = [np.empty(room // 3, dtype=np.int32) for _ in range(3)]
         scratch = [np.empty(n, dtype=np.int32) for n in (most, 2 * most, 2 * most, most)]
         visits = np.full(max(n_vertices, 1), -1, dtype=np.int32)
-        jobs.append((t, marks, seeds, bad, degrees, added, sizes, visits, *scratch, low, high))
-        made.append((added, sizes))
-    counts = parallel(_repair.at(10 * n_sides), jobs)
-    behind = [[rows[k][:n] for rows, n in zip(made, counts, strict=True)] for k in range(2)]
-    return Repair(np.concatenate([seeds, *behind[0]]), np.concatenate([degrees, *behind[1]]))
+        target = (walks.corners, walks.vertices, walks.begins, walks.degrees, walks.places)
+        jobs.append((t, marks, seeds, bad, *target, *added, visits, *scratch, place, low, high))
+        made.append((place, added))
+        place += room
+    if place > len(walks.corners):
+        raise OverflowError(f"a repair of {len(bad)} regions needs more corners than int32 can number")
+    found = parallel(_repair.at(10 * int(sides.sum())), jobs)
+    behind = [[rows[k][:n] for (_, rows), (n, _) in zip(made, found, strict=True)] for k in range(3)]
+    starts, begins, degrees = (np.concatenate(rows) for rows in behind)
+    first = (t, marks, starts, walks.of_triangle, len(seeds))
+    parallel(_note_triangles.at(10 * int(sides.sum())), [(*first, *piece) for piece in ranges(len(starts))])
+    return walks._replace(
+        begins=np.concatenate([walks.begins, begins]),
+        degrees=np.concatenate([walks.degrees, degrees]),
+        stretches=walks.stretches + [(begin, end) for (begin, _), (_, end) in zip(made, found, strict=True)],
+    )
 
 
 @kernel
 def _repair(
-    t: Any, marks: Any, seeds: Any, bad: Any, degrees: Any, added: Any, sizes: Any, visits: Any,
-    loop: Any, path: Any, stack: Any, cuts: Any, low: int, high: int,
-) -> int:  # fmt: skip
-    """Returns how many polygons were added: a halfedge of each in `added`, its degree in `sizes`."""
-    n_added = 0
+    t: Any, marks: Any, seeds: Any, bad: Any,
+    corners: Any, vertices: Any, begins: Any, degrees: Any, places: Any,
+    new_starts: Any, new_begins: Any, new_degrees: Any,
+    visits: Any, loop: Any, path: Any, stack: Any, cuts: Any, place: int, low: int, high: int,
+) -> tuple[int, int]:  # fmt: skip
+    """Returns how many polygons were added, and where their corners end, that begin at `place`."""
+    n_added, c = 0, place
     for i in range(low, high):
         p = bad[i]
-        stack[0] = first_frontier(t, marks, seeds[p])
+        old_end = begins[p] + degrees[p]
+        stack[0] = corners[begins[p]]
         marks[stack[0]] |= PENDING
         top = 1
         while top > 0:
@@ -76,23 +88,52 @@ def _repair(
                 continue
             n, has_seed = _walk(t, marks, start, seeds[p], loop)
             way = _shortest_way(t, loop, n, visits)
-            if way == n:  # simple
-                if has_seed:
-                    degrees[p] = n
-                else:
-                    added[n_added], sizes[n_added] = start, n
-                    n_added += 1
-                continue
-            n_cuts = _middles(t, marks, loop, n, way, visits, path, cuts)
-            for k in range(n_cuts):
-                h = cuts[k]
-                if is_internal(t, marks, h):  # two ways may have the same middle
-                    g = twin_of(t, h)
-                    marks[h] |= CUT | PENDING
-                    marks[g] |= CUT | PENDING
-                    stack[top], stack[top + 1] = h, g
-                    top += 2
-    return n_added
+            if way == n and has_seed:  # simple
+                degrees[p] = n
+                _put(t, loop, n, begins[p], corners, vertices, places)
+                for k in range(begins[p] + n, old_end):
+                    corners[k] = -1
+            elif way == n:
+                new_starts[n_added], new_begins[n_added], new_degrees[n_added] = start, c, n
+                n_added += 1
+                _put(t, loop, n, c, corners, vertices, places)
+                c += n
+            else:
+                n_cuts = _middles(t, marks, loop, n, way, visits, path, cuts)
+                for k in range(n_cuts):
+                    h = cuts[k]
+                    if is_internal(t, marks, h):  # two ways may have the same middle
+                        g = twin_of(t, h)
+                        marks[h] |= CUT | PENDING
+                        marks[g] |= CUT | PENDING
+                        stack[top], stack[top + 1] = h, g
+                        top += 2
+    return n_added, c
+
+
+@kernel
+def _put(t: Any, loop: Any, n: int, place: int, corners: Any, vertices: Any, places: Any) -> None:
+    """Write a polygon down, from `place` on."""
+    for i in range(n):
+        h = loop[i]
+        corners[place + i] = h
+        vertices[place + i] = origin_of(t, h)
+        places[h] = place + i
+
+
+@kernel
+def _note_triangles(t: Any, marks: Any, starts: Any, of_triangle: Any, first: int, low: int, high: int) -> None:
+    """Note the polygon of each triangle of those that were added, which are numbered from `first` on."""
+    for i in range(low, high):
+        h = starts[i]
+        while True:
+            of_triangle[face_of(t, h)] = first + i
+            h = next_of(t, h)
+            while is_internal(t, marks, h):
+                of_triangle[face_of(t, h)] = first + i
+                h = next_of(t, twin_of(t, h))
+            if h == starts[i]:
+                break
 
 
 @kernel
@@ -117,6 +158,8 @@ def _shortest_way(t: Any, loop: Any, n: int, visits: Any) -> int:
     """The least number of sides from a vertex to the same vertex; `n`, once around, if none is passed twice."""
     shortest = n
     for i in range(2 * n):
+        if i == n and shortest == n:
+            break  # no vertex twice, so none again around the corner
         v = origin_of(t, loop[i if i < n else i - n])
         if visits[v] >= 0:
             shortest = min(shortest, i - visits[v])

@@ -26,7 +26,7 @@ from halfmesh.algorithms._polylla_marks import (
 )
 from halfmesh.algorithms._polylla_repair import repair
 from halfmesh.algorithms._polylla_report import PHASES, PolyllaReport
-from halfmesh.algorithms._polylla_travel import Polygons, collect, travel
+from halfmesh.algorithms._polylla_travel import Walks, travel
 from halfmesh.core.navigation import edge_of
 from halfmesh.core.topology import Arrays, Topology
 from halfmesh.errors import PreconditionError
@@ -117,8 +117,8 @@ def polylla(mesh: Mesh, *, report: bool = False, progress: Progress | None = Non
     points, sizes = points_of(source), Sizes.of(source.topology)
 
     regions = _partition(source, points, sizes, clock)
-    numbering = number(source, regions.marks, regions.polygons, sizes.n_edges, regions.n_wire)
-    arrays = write(source, regions.marks, regions.polygons, numbering, sizes.n_vertices)
+    numbering = number(source, regions.marks, regions.walks, sizes.n_edges, regions.n_wire)
+    arrays = write(source, regions.marks, regions.walks, numbering, sizes.n_vertices)
     clock.passed("write")
     made = _with_attributes(source, arrays, regions, numbering)
     clock.passed("attributes")
@@ -141,10 +141,8 @@ class Sizes(NamedTuple):
 
 class _Regions(NamedTuple):
     marks: Bytes
-    polygons: Polygons
+    walks: Walks
     n_wire: int
-    n_tips: int
-    n_repaired: int
     n_added: int
 
 
@@ -154,14 +152,13 @@ def _partition(t: Any, points: Floats, sizes: Sizes, clock: _Clock) -> _Regions:
     if code != OK:
         _refuse(code, face)
     clock.passed("label")
-    seeds, _, n_wire = find_seeds(t, marks, sizes.n_edges)
+    seeds, n_wire = find_seeds(t, marks, sizes.n_edges)
     clock.passed("seeds")
-    found = travel(t, marks, seeds, sizes.n_vertices)
+    walks = travel(t, marks, seeds, sizes.n_vertices, sizes.n_faces)
     clock.passed("travel")
-    seeds_and_more, degrees = repair(t, marks, seeds, found, sizes.n_vertices)
+    walks = repair(t, marks, seeds, walks, sizes.n_vertices)
     clock.passed("repair")
-    polygons = collect(t, marks, seeds_and_more, degrees, sizes.n_faces)
-    return _Regions(marks, polygons, n_wire, found.n_tips, len(found.bad), len(degrees) - len(seeds))
+    return _Regions(marks, walks, n_wire, len(walks.degrees) - len(seeds))
 
 
 def _refuse(code: int, face: int) -> NoReturn:
@@ -190,14 +187,15 @@ def _with_attributes(source: Mesh, arrays: Arrays, regions: _Regions, numbering:
     made.has_points, made.meta = True, deepcopy(source._meta)
     made.vertex_data._adopt(source.vertex_data._columns_in_use())
     if len(source.halfedge_data) or len(source.edge_data):
-        old = old_halfedges(regions.marks, regions.polygons, numbering).astype(np.int64)
+        old = old_halfedges(regions.marks, regions.walks, numbering)
         made.halfedge_data._adopt(source.halfedge_data._columns_of(old))
         made.edge_data._adopt(source.edge_data._columns_of(edge_of(source, old[::2])))
     return made
 
 
 def _reported(regions: _Regions, numbering: Numbering, face_map: Ints | None, clock: _Clock) -> PolyllaReport:
-    of_triangle = regions.polygons.of_triangle
+    walks = regions.walks
+    of_triangle = walks.of_triangle
     n_triangles = len(of_triangle)
     if face_map is not None:
         of_slot = np.full(len(face_map), -1, dtype=np.int32)
@@ -205,10 +203,10 @@ def _reported(regions: _Regions, numbering: Numbering, face_map: Ints | None, cl
         of_triangle = of_slot
     return PolyllaReport(
         n_triangles=n_triangles,
-        n_polygons=len(regions.polygons.offsets) - 1,
+        n_polygons=len(walks.degrees),
         n_frontier_edges=numbering.n_edges - regions.n_wire,
-        n_tips=regions.n_tips,
-        n_repaired=regions.n_repaired,
+        n_tips=walks.n_tips,
+        n_repaired=len(walks.bad),
         n_added=regions.n_added,
         triangle_polygon=of_triangle,
         seconds=clock.seconds,
