@@ -65,6 +65,13 @@ def test_tori_with_points_anywhere_on_a_small_lattice(columns, rows, seed, size)
     compared(triangles, np.random.default_rng(seed).integers(0, size, points.shape))
 
 
+@pytest.mark.parametrize("seed", [40, 54, 55, 65, 95, 105])
+def test_ways_between_triangles_that_don_t_begin_or_end_where_the_walk_comes_by(seed):
+    """Tori where the path between two visits of a vertex leads along edges of that vertex first."""
+    triangles, points = lattice(3 + seed % 5, 3 + seed // 5 % 5, seed, 0, around=(True, True))
+    compared(triangles, np.random.default_rng(seed).integers(0, 1 + seed % 5, points.shape))
+
+
 @given(st.integers(3, 7), st.integers(3, 7), seeds)
 def test_tori_with_points_anywhere(columns, rows, seed):
     triangles, points = lattice(columns, rows, seed, 0, around=(True, True))

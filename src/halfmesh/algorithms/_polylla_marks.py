@@ -47,9 +47,12 @@ OK, NO_TRIANGLE, REPEATED_VERTEX, NOT_FINITE = 0, 1, 2, 3
 
 
 @kernel
-def is_internal(t: Any, marks: Any, h: int) -> bool:
-    """Whether the triangles on both sides of `h` belong to one polygon, joined by this edge."""
-    return (marks[h] | marks[twin_of(t, h)]) == LONGEST  # type: ignore[no-any-return]
+def is_internal(marks: Any, h: int, twin: int) -> bool:
+    """Whether the triangles on both sides of an edge belong to one polygon, joined by it.
+
+    Both halfedges are given: who asks needs the twin anyway, to go across, and not every mesh has it for nothing.
+    """
+    return (marks[h] | marks[twin]) == LONGEST  # type: ignore[no-any-return]
 
 
 # -- longest edges -------------------------------------------------------------------------------------------------
@@ -161,12 +164,12 @@ def _list_seeds(t: Any, marks: Any, seeds: Any, low: int, high: int) -> tuple[in
         h = halfedge_of_edge(t, e)
         g = twin_of(t, h)
         seeds[n] = g if marks[h] == OUTSIDE else h  # without a branch: to be overwritten if it is none
-        n += is_terminal(marks[h], marks[g])
+        n += _is_terminal(marks[h], marks[g])
         n_wire += (marks[h] & marks[g]) == OUTSIDE
     return n, n_wire
 
 
 @kernel
-def is_terminal(a: int, b: int) -> bool:
+def _is_terminal(a: int, b: int) -> bool:
     """Whether an edge of which the sides have these marks is terminal: the longest of all triangles that it has."""
     return (a & b) == LONGEST or (a | b) == (LONGEST | OUTSIDE)

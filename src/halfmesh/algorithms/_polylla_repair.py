@@ -102,8 +102,8 @@ def _repair(
                 n_cuts = _middles(t, marks, loop, n, way, visits, path, cuts)
                 for k in range(n_cuts):
                     h = cuts[k]
-                    if is_internal(t, marks, h):  # two ways may have the same middle
-                        g = twin_of(t, h)
+                    g = twin_of(t, h)
+                    if is_internal(marks, h, g):  # two ways may have the same middle
                         marks[h] |= CUT | PENDING
                         marks[g] |= CUT | PENDING
                         stack[top], stack[top + 1] = h, g
@@ -129,9 +129,11 @@ def _note_triangles(t: Any, marks: Any, starts: Any, of_triangle: Any, first: in
         while True:
             of_triangle[face_of(t, h)] = first + i
             h = next_of(t, h)
-            while is_internal(t, marks, h):
+            g = twin_of(t, h)
+            while is_internal(marks, h, g):
                 of_triangle[face_of(t, h)] = first + i
-                h = next_of(t, twin_of(t, h))
+                h = next_of(t, g)
+                g = twin_of(t, h)
             if h == starts[i]:
                 break
 
@@ -146,9 +148,11 @@ def _walk(t: Any, marks: Any, start: int, seed: int, loop: Any) -> tuple[int, bo
         marks[h] &= ~PENDING
         has_seed |= h == seed
         h = next_of(t, h)
-        while is_internal(t, marks, h):
+        g = twin_of(t, h)
+        while is_internal(marks, h, g):
             has_seed |= h == seed
-            h = next_of(t, twin_of(t, h))
+            h = next_of(t, g)
+            g = twin_of(t, h)
         if h == start:
             return n, has_seed
 
@@ -198,14 +202,15 @@ def _middle(t: Any, marks: Any, h: int, w: int, way: int, path: Any) -> int:
     n = 0
     for _ in range(way - 1):
         h = next_of(t, h)
-        while is_internal(t, marks, h):
-            g = twin_of(t, h)
+        g = twin_of(t, h)
+        while is_internal(marks, h, g):
             if n > 0 and path[n - 1] == g:
                 n -= 1
             else:
                 path[n] = h
                 n += 1
             h = next_of(t, g)
+            g = twin_of(t, h)
     first, last = 0, n - 1
     while first < last and _touches(t, path[first], w):
         first += 1

@@ -20,7 +20,7 @@ from halfmesh.core.matching import parts
 from halfmesh.core.navigation import face_of, next_of, origin_of, twin_of
 from halfmesh.core.topology import LIMIT
 
-__all__ = ["Walks", "first_frontier", "travel"]
+__all__ = ["Walks", "travel"]
 
 Stretch = tuple[int, int]
 
@@ -43,11 +43,13 @@ class Walks(NamedTuple):
 
 
 @kernel
-def first_frontier(t: Any, marks: Any, seed: int) -> int:
+def _first_frontier(t: Any, marks: Any, seed: int) -> int:
     """A frontier halfedge of the region of a seed, from the same vertex."""
     h = seed
-    while is_internal(t, marks, h):
-        h = next_of(t, twin_of(t, h))
+    g = twin_of(t, h)
+    while is_internal(marks, h, g):
+        h = next_of(t, g)
+        g = twin_of(t, h)
     return h
 
 
@@ -97,9 +99,9 @@ def _travel(
     """
     c, n_bad, n_tips = place, 0, 0
     for p in range(low, high):
-        start = first_frontier(t, marks, seeds[p])
+        start = _first_frontier(t, marks, seeds[p])
         begins[p] = c
-        h, is_simple = start, True
+        h, twin, is_simple = start, twin_of(t, start), True
         while True:
             v = origin_of(t, h)
             is_simple &= seen[v] != p
@@ -108,15 +110,17 @@ def _travel(
             vertices[c] = v
             places[h] = c
             c += 1
-            g = twin_of(t, h)
             if marks[h] & LONGEST:
                 of_triangle[face_of(t, h)] = p
+            back = twin
             h = next_of(t, h)
-            while is_internal(t, marks, h):
+            twin = twin_of(t, h)
+            while is_internal(marks, h, twin):
                 if marks[h] & LONGEST:
                     of_triangle[face_of(t, h)] = p
-                h = next_of(t, twin_of(t, h))
-            n_tips += h == g
+                h = next_of(t, twin)
+                twin = twin_of(t, h)
+            n_tips += h == back
             if h == start:
                 break
         degrees[p] = c - begins[p]

@@ -13,20 +13,20 @@ from copy import deepcopy
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple, NoReturn, overload
 
 import numpy as np
+from numpy.typing import NDArray
 
-from halfmesh.algorithms._polylla_columns import Numbering, number, old_halfedges, write
+from halfmesh.algorithms._polylla_columns import number, old_halfedges, write
 from halfmesh.algorithms._polylla_marks import (
     NO_TRIANGLE,
     OK,
     REPEATED_VERTEX,
-    Bytes,
     Ints,
     find_seeds,
     mark_longest_edges,
 )
 from halfmesh.algorithms._polylla_repair import repair
 from halfmesh.algorithms._polylla_report import PHASES, PolyllaReport
-from halfmesh.algorithms._polylla_travel import Walks, travel
+from halfmesh.algorithms._polylla_travel import travel
 from halfmesh.core.navigation import edge_of
 from halfmesh.core.topology import Arrays, Topology
 from halfmesh.errors import PreconditionError
@@ -110,21 +110,17 @@ def polylla(mesh: Mesh, *, report: bool = False, progress: Progress | None = Non
     >>> report.n_triangles, report.n_polygons, set(polygons.face_degrees().tolist())
     (800, 400, {4})
     """
-    clock = _Clock(progress)
     if not mesh.has_points:
         raise PreconditionError("polylla compares the lengths of edges, and this mesh has no points; set mesh.points")
+    clock = _Clock(progress)
     source, face_map = _compacted(mesh)
-    points, sizes = points_of(source), Sizes.of(source.topology)
-
-    regions = _partition(source, points, sizes, clock)
-    numbering = number(source, regions.marks, regions.walks, sizes.n_edges, regions.n_wire)
-    arrays = write(source, regions.marks, regions.walks, numbering, sizes.n_vertices)
-    clock.passed("write")
-    made = _with_attributes(source, arrays, regions, numbering)
+    follows = len(source.halfedge_data) + len(source.edge_data) > 0
+    partition = partitioned(source, points_of(source), Sizes.of(source.topology), clock.passed, follows=follows)
+    made = _with_attributes(source, partition)
     clock.passed("attributes")
 
     made.build_seconds = sum(clock.seconds.values())
-    return (made, _reported(regions, numbering, face_map, clock)) if report else made
+    return (made, _reported(partition, face_map, clock.seconds)) if report else made
 
 
 class Sizes(NamedTuple):
@@ -139,26 +135,42 @@ class Sizes(NamedTuple):
         return cls(len(t.vertex_halfedge), len(t.next) // 2, len(t.face_halfedge))
 
 
-class _Regions(NamedTuple):
-    marks: Bytes
-    walks: Walks
+class Partition(NamedTuple):
+    """The polygons as columns, and what is to be said about them."""
+
+    arrays: Arrays
+    of_triangle: Ints  # the polygon of each triangle
+    old_halfedges: NDArray[np.int64] | None  # the halfedge of the triangulation that each one was
     n_wire: int
+    n_tips: int
+    n_repaired: int
     n_added: int
 
 
-def _partition(t: Any, points: Floats, sizes: Sizes, clock: _Clock) -> _Regions:
-    """The phases of the paper; `t` is whatever the rules walk on."""
+def partitioned(
+    t: Any, points: Floats, sizes: Sizes, passed: Callable[[str], None], *, follows: bool = False
+) -> Partition:
+    """The phases of the paper.
+
+    `t` is whatever the rules walk on, with nothing deleted; `follows` is whether to say the old halfedges. What is only
+    needed in between is free again when this returns, before the attributes take their place.
+    """
     marks, code, face = mark_longest_edges(t, points, 2 * sizes.n_edges, sizes.n_faces)
     if code != OK:
         _refuse(code, face)
-    clock.passed("label")
+    passed("label")
     seeds, n_wire = find_seeds(t, marks, sizes.n_edges)
-    clock.passed("seeds")
+    passed("seeds")
     walks = travel(t, marks, seeds, sizes.n_vertices, sizes.n_faces)
-    clock.passed("travel")
+    passed("travel")
     walks = repair(t, marks, seeds, walks, sizes.n_vertices)
-    clock.passed("repair")
-    return _Regions(marks, walks, n_wire, len(walks.degrees) - len(seeds))
+    passed("repair")
+    numbering = number(t, marks, walks, sizes.n_edges, n_wire)
+    arrays = write(t, marks, walks, numbering, sizes.n_vertices)
+    old = old_halfedges(marks, walks, numbering) if follows else None
+    passed("write")
+    n_added = len(walks.degrees) - len(seeds)
+    return Partition(arrays, walks.of_triangle, old, n_wire, walks.n_tips, len(walks.bad), n_added)
 
 
 def _refuse(code: int, face: int) -> NoReturn:
@@ -181,35 +193,33 @@ def _compacted(mesh: Mesh) -> tuple[Mesh, Ints | None]:
     return copy, copy.compact().faces
 
 
-def _with_attributes(source: Mesh, arrays: Arrays, regions: _Regions, numbering: Numbering) -> Mesh:
+def _with_attributes(source: Mesh, partition: Partition) -> Mesh:
     made = object.__new__(type(source))
-    made._hold(Topology(arrays))
+    made._hold(Topology(partition.arrays))
     made.has_points, made.meta = True, deepcopy(source._meta)
     made.vertex_data._adopt(source.vertex_data._columns_in_use())
-    if len(source.halfedge_data) or len(source.edge_data):
-        old = old_halfedges(regions.marks, regions.walks, numbering)
+    old = partition.old_halfedges
+    if old is not None:
         made.halfedge_data._adopt(source.halfedge_data._columns_of(old))
         made.edge_data._adopt(source.edge_data._columns_of(edge_of(source, old[::2])))
     return made
 
 
-def _reported(regions: _Regions, numbering: Numbering, face_map: Ints | None, clock: _Clock) -> PolyllaReport:
-    walks = regions.walks
-    of_triangle = walks.of_triangle
-    n_triangles = len(of_triangle)
+def _reported(partition: Partition, face_map: Ints | None, seconds: dict[str, float]) -> PolyllaReport:
+    _, n_edges, n_polygons = (int(n) for n in partition.arrays.counts[:3])
+    of_triangle = partition.of_triangle
     if face_map is not None:
-        of_slot = np.full(len(face_map), -1, dtype=np.int32)
-        of_slot[face_map >= 0] = of_triangle
-        of_triangle = of_slot
+        of_triangle = np.full(len(face_map), -1, dtype=np.int32)
+        of_triangle[face_map >= 0] = partition.of_triangle
     return PolyllaReport(
-        n_triangles=n_triangles,
-        n_polygons=len(walks.degrees),
-        n_frontier_edges=numbering.n_edges - regions.n_wire,
-        n_tips=walks.n_tips,
-        n_repaired=len(walks.bad),
-        n_added=regions.n_added,
+        n_triangles=len(partition.of_triangle),
+        n_polygons=n_polygons,
+        n_frontier_edges=n_edges - partition.n_wire,
+        n_tips=partition.n_tips,
+        n_repaired=partition.n_repaired,
+        n_added=partition.n_added,
         triangle_polygon=of_triangle,
-        seconds=clock.seconds,
+        seconds=seconds,
     )
 
 
