@@ -65,7 +65,14 @@ from halfmesh.mesh import Edge, Face, Halfedge, Mesh, Vertex
 
 if TYPE_CHECKING:
     from halfmesh import algorithms, geometry, io, shapes, testing, viewer
-    from halfmesh.algorithms import triangulate, triangulate_face, triangulate_face_status, triangulated
+    from halfmesh.algorithms import (
+        PolyllaReport,
+        polylla,
+        triangulate,
+        triangulate_face,
+        triangulate_face_status,
+        triangulated,
+    )
     from halfmesh.io import load, save
     from halfmesh.shapes import delaunay
 
@@ -73,8 +80,10 @@ __version__ = "0.1.0"
 
 _ROOMS = ("algorithms", "geometry", "io", "shapes", "testing", "viewer")
 _LATER = dict.fromkeys(_ROOMS, "") | {
+    "PolyllaReport": "algorithms",
     "delaunay": "shapes",
     "load": "io",
+    "polylla": "algorithms",
     "save": "io",
     "triangulate": "algorithms",
     "triangulate_face": "algorithms",
@@ -106,6 +115,7 @@ __all__ = [
     "HalfmeshError",
     "InvalidMeshError",
     "Mesh",
+    "PolyllaReport",
     "PreconditionError",
     "StaleElementError",
     "TopologyError",
@@ -144,6 +154,7 @@ __all__ = [
     "opposite_face_of",
     "origin_of",
     "outgoing",
+    "polylla",
     "prev_of",
     "save",
     "shapes",
