@@ -65,10 +65,18 @@ from halfmesh.mesh import Edge, Face, Halfedge, Mesh, Vertex
 
 if TYPE_CHECKING:
     from halfmesh import algorithms, geometry, io, shapes, testing, viewer
-    from halfmesh.algorithms import triangulate, triangulate_face, triangulate_face_status, triangulated
+    from halfmesh.algorithms import (
+        PolyllaReport,
+        polylla,
+        triangulate,
+        triangulate_face,
+        triangulate_face_status,
+        triangulated,
+    )
     from halfmesh.io import load, save
     from halfmesh.mesh.compact_mesh import CompactMesh
     from halfmesh.mesh.readonly import TriangleMesh
+    from halfmesh.shapes import delaunay
 
 __version__ = "0.1.0"
 
@@ -76,7 +84,10 @@ _ROOMS = ("algorithms", "geometry", "io", "shapes", "testing", "viewer")
 _LATER = dict.fromkeys(_ROOMS, "") | {
     "CompactMesh": "mesh.compact_mesh",
     "TriangleMesh": "mesh.readonly",
+    "PolyllaReport": "algorithms",
+    "delaunay": "shapes",
     "load": "io",
+    "polylla": "algorithms",
     "save": "io",
     "triangulate": "algorithms",
     "triangulate_face": "algorithms",
@@ -109,6 +120,7 @@ __all__ = [
     "HalfmeshError",
     "InvalidMeshError",
     "Mesh",
+    "PolyllaReport",
     "PreconditionError",
     "StaleElementError",
     "TopologyError",
@@ -117,6 +129,7 @@ __all__ = [
     "algorithms",
     "ccw_of",
     "cw_of",
+    "delaunay",
     "edge_of",
     "edge_slots",
     "edges_around",
@@ -147,6 +160,7 @@ __all__ = [
     "opposite_face_of",
     "origin_of",
     "outgoing",
+    "polylla",
     "prev_of",
     "save",
     "shapes",

@@ -12,32 +12,43 @@ from typing import IO
 
 from halfmesh.errors import FormatError
 
-__all__ = ["replace_file"]
+__all__ = ["replace_file", "replace_files"]
 
 
 def replace_file(path: str | os.PathLike[str], pieces: Iterable[bytes | memoryview]) -> None:
-    """Write the pieces to a new file beside `path`, and put it in the place of `path` when it is complete.
+    """Write one file: see `replace_files`."""
+    replace_files([(path, pieces)])
 
-    Whatever goes wrong, what was at `path` before is still there and nothing else is. The permission bits of an
-    existing file are kept; a symbolic link stays one.
+
+def replace_files(files: Iterable[tuple[str | os.PathLike[str], Iterable[bytes | memoryview]]]) -> None:
+    """Write the pieces of each to a new file beside its path, and when all are complete, put them in their places.
+
+    Whatever goes wrong, what was at the paths before is still there and nothing else is. (If the system stops between
+    the last steps for two files, the first is the new one.) The permission bits of an existing file are kept; a
+    symbolic link stays one.
 
     Raises
     ------
     OSError
         Whatever the system says.
     FormatError
-        If `path` is there but not a regular file.
+        If a path is there but not a regular file.
     """
-    place = os.path.realpath(path)
-    mode = _mode(place, os.fspath(path))
-    with _beside(place) as file:
-        for piece in pieces:
-            file.write(piece)
-        file.flush()
-        if mode is not None:
-            os.chmod(file.name, mode)
-        file.close()
-        os.replace(file.name, place)
+    with contextlib.ExitStack() as stack:
+        complete = []
+        for path, pieces in files:
+            place = os.path.realpath(path)
+            mode = _mode(place, os.fspath(path))
+            file = stack.enter_context(_beside(place))
+            for piece in pieces:
+                file.write(piece)
+            file.flush()
+            if mode is not None:
+                os.chmod(file.name, mode)
+            file.close()
+            complete.append((file.name, place))
+        for written, place in complete:
+            os.replace(written, place)
 
 
 def _mode(place: str, path: str) -> int | None:

@@ -20,11 +20,12 @@ import numpy as np
 
 import halfmesh as hm
 from halfmesh import _jit
-from halfmesh.core import navigation
 from halfmesh.core.operators import building
 from halfmesh.core.pens import rewind
 from halfmesh.core.search import find_halfedge
 from halfmesh.core.slots import reserve
+from halfmesh.shapes._engine import Triangles
+from halfmesh.shapes.triangulations import _trimmed
 
 __all__ = ["jobs", "kernels_of", "n_compiled_here", "n_from_cache", "never_compiled", "warm_up"]
 
@@ -74,11 +75,13 @@ def jobs() -> list[Job]:
         ("measuring in kernels", lambda _: _measure_one(hm.shapes.cube())),
         ("writing and reading OFF", lambda folder: _there_and_back(folder / "mesh.off")),
         ("writing and reading OBJ", lambda folder: _there_and_back(folder / "mesh.obj")),
+        ("writing and reading the files of Triangle", _read_tables),
         ("reading OFF in other forms", _read_other_forms),
         ("changing", lambda _: _change()),
         ("cutting and sewing", lambda _: _sew()),
         ("triangulating", lambda _: _triangulate()),
-        ("reading in little memory", _read_compact),
+        ("cutting holes", lambda _: _cut_holes()),
+        ("joining triangles", lambda _: _join_triangles()),
         ("walking in kernels", lambda _: _walk(hm.shapes.cube(), 0)),
         ("smoothing", lambda _: _smooth()),
         ("holding in little memory", _hold_in_little),
@@ -110,6 +113,13 @@ def _gather(mesh: hm.Mesh) -> None:
     find_halfedge(mesh, 0, 1)
 
 
+def _cut_holes() -> None:
+    """What follows on a triangulation of points, for which a library is needed that may not be there."""
+    mesh = hm.shapes.grid(3, triangles=True)
+    sides = mesh.edge_vertices()
+    _trimmed(mesh, Triangles(mesh.triangles(), sides, np.arange(len(sides), dtype=np.int32)), np.ones((1, 2)), True)
+
+
 def _measure(mesh: hm.Mesh) -> None:
     for name in hm.geometry.__all__:
         measure = getattr(hm.geometry, name)
@@ -137,6 +147,15 @@ def _decorated() -> hm.Mesh:
     mesh.vertex_data["color"] = np.full((mesh.n_vertices, 4), 0.5)
     mesh.halfedge_data["texcoord"] = np.zeros((mesh.n_halfedges, 2))
     return mesh
+
+
+def _read_tables(folder: Path) -> None:
+    mesh = hm.shapes.tetrahedron()
+    hm.save(mesh, folder / "mesh.neigh")
+    hm.load(folder / "mesh.neigh")
+    (folder / "mesh.ele").write_text("1 3\n0 0 1 9\n")
+    with contextlib.suppress(hm.FormatError):
+        hm.load(folder / "mesh.ele")
 
 
 def _read_other_forms(folder: Path) -> None:
@@ -285,24 +304,10 @@ def _triangulate() -> None:
         hm.triangulate(mesh)
 
 
-def _read_compact(folder: Path) -> None:
-    """What is only read, also with wire, holes and several components; and the words that handles ask compiled."""
-    several = hm.shapes.grid(3, 3)
-    several.make_hole(4)
-    several.append(hm.Mesh([], edges=[[0, 1]], n_vertices=2))
-    for mesh in (several, hm.shapes.icosphere(1)):
-        small = hm.CompactMesh(mesh, maps=True)
-        small.to_mesh()
-        small.save(folder / "mesh.hmc")
-        hm.CompactMesh.load(folder / "mesh.hmc")
-    for handles, words in (
-        (small.halfedges, "next prev twin ccw cw origin target face edge"),
-        (small.edges, "halfedge"),
-        (small.faces, "halfedge"),
-        (small.vertices, "halfedge"),
-    ):
-        for word in words.split():
-            getattr(handles[0], word)
+def _join_triangles() -> None:
+    """A closed surface where all edges are equally long, to be repaired; and wire at a boundary."""
+    hm.polylla(hm.shapes.tetrahedron())
+    hm.polylla(hm.Mesh([[0, 1, 2]], np.eye(4, 3), edges=[[2, 3]]))
 
 
 @hm.kernel
@@ -355,11 +360,16 @@ def _hold_in_little(folder: Path) -> None:
     hm.CompactMesh(mesh, maps=True).save(folder / "mesh.hmc")
     compact = hm.CompactMesh.load(folder / "mesh.hmc")
     compact.to_mesh()
+    for handles, words in (
+        (compact.halfedges, "next prev twin ccw cw origin target face edge"),
+        (compact.edges, "halfedge"),
+        (compact.faces, "halfedge"),
+        (compact.vertices, "halfedge"),
+    ):
+        for word in words.split():
+            getattr(handles[0], word)
     for small in (triangles, compact):
-        for rule in navigation.__all__:
-            if not rule.endswith("_slots"):
-                getattr(hm, rule)(small, np.arange(1))  # over arrays: each rule as the mesh has it
-        small.vertices[0].neighbors(), small.face_vertices()
+        small.face_vertices(), small.vertex_neighbors()
 
 
 # ----------------------------------------------------------------------------------------------- what has been compiled

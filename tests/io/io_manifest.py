@@ -22,7 +22,7 @@ class Row(NamedTuple):
 
 
 def rows(*folders: str) -> list[Row]:
-    """The OFF and OBJ files in these folders; none where the corpus is absent."""
+    """The files in these folders that are read; none where the corpus is absent."""
     table = CORPUS / "MANIFEST.tsv"
     if not table.is_file():
         return []
@@ -31,7 +31,9 @@ def rows(*folders: str) -> list[Row]:
 
 
 def _wanted(path: str, folders: tuple[str, ...]) -> bool:
-    return path.startswith(tuple(f"{folder}/" for folder in folders)) and path.lower().endswith((".off", ".obj"))
+    return path.startswith(tuple(f"{folder}/" for folder in folders)) and path.lower().endswith(
+        (".off", ".obj", ".ele")
+    )
 
 
 def _row(row: dict[str, str]) -> Row:

@@ -36,5 +36,12 @@ def read_obj(path: Path) -> Parsed:
     return points, faces
 
 
+def read_ele(path: Path) -> Parsed:
+    _, *nodes = lines_of(path.with_suffix(".node"))
+    _, *elements = lines_of(path)
+    base = int(nodes[0][0])
+    return [[float(x), float(y), 0.0] for _, x, y, *_ in nodes], [[int(i) - base for i in row[1:4]] for row in elements]
+
+
 def read(path: Path) -> Parsed:
-    return (read_off if path.suffix.lower() == ".off" else read_obj)(path)
+    return {".off": read_off, ".obj": read_obj, ".ele": read_ele}[path.suffix.lower()](path)

@@ -13,7 +13,7 @@ import pytest
 from halfmesh import io
 from halfmesh.errors import FormatError
 
-GOOD = [row for row in manifest.rows("off", "obj") if row.n_faces is not None]
+GOOD = [row for row in manifest.rows("off", "obj", "node_ele") if row.n_faces is not None]
 MALFORMED = manifest.rows("malformed")
 BINARY = "off/pmp__fairing-cross.off"
 
@@ -111,6 +111,6 @@ def test_a_line_that_names_an_edge_of_a_face_makes_no_second_edge(corpus: Path) 
     assert mesh.edge_data["line"].all()
 
 
-@named([row for row in GOOD if row.path.startswith("off/")])
+@named([row for row in GOOD if row.path.startswith(("off/", "node_ele/"))])
 def test_a_mesh_has_the_edges_of_the_manifest(row: manifest.Row, corpus: Path) -> None:
     assert io.load(corpus / row.path).n_edges == row.n_edges

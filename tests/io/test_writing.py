@@ -229,3 +229,16 @@ def test_arrays_that_no_file_could_hold_are_refused(faces: object, points: objec
 def test_save_of_what_is_no_mesh_says_what_to_call(tmp_path):
     with pytest.raises(hm.ElementError, match=r"write\(path, faces, points\)"):
         hm.save(([[0, 1, 2]], [[0, 0, 0]] * 3), tmp_path / "a.off")
+
+
+@pytest.mark.parametrize("suffix", [".off", ".obj"])
+def test_what_was_deleted_is_not_written(suffix: str, tmp_path: Path) -> None:
+    mesh = hm.shapes.grid(2)
+    mesh.vertex_data["color"] = np.arange(27.0).reshape(9, 3)
+    mesh.remove_face(0)
+    mesh.remove_vertex(0)
+    hm.save(mesh, tmp_path / f"a{suffix}")
+    again = hm.load(tmp_path / f"a{suffix}")
+    assert (again.n_vertices, again.n_edges, again.n_faces) == (8, 10, 3)
+    assert again.vertex_data["color"][0].tolist() == [3, 4, 5]
+    assert mesh.n_faces == 3

@@ -117,7 +117,7 @@ def convert(source: Path, target: Path) -> None:
     data = hm.io.read_data(source)
     hm.io.write(
         target, data.faces, data.points, edges=data.edges,
-        vertex=data.vertex, halfedge=data.halfedge, face=data.face, meta=data.meta,
+        vertex=data.vertex, halfedge=data.halfedge, edge=data.edge, face=data.face, meta=data.meta,
     )  # fmt: skip
     click.echo(f"{click.format_filename(target)}: {data.n_vertices:,} vertices, {data.n_faces:,} faces")
 

@@ -38,7 +38,8 @@ def read(path: Path) -> tuple[Faces, NDArray[np.float64]]:
     Parameters
     ----------
     path : str or path-like
-        Its suffix, in capitals or not, says the format: ``.off`` or ``.obj``.
+        Its suffix, in capitals or not, says the format: ``.off``, ``.obj``, or ``.ele .node .neigh .poly`` of
+        Triangle, of which the others that belong to a mesh are read from beside it.
 
     Returns
     -------
@@ -136,12 +137,12 @@ def save(mesh: Mesh, path: Path) -> None:
     ----------
     mesh : Mesh
     path : str or path-like
-        Its suffix says the format.
+        Its suffix says the format. With ``.ele`` or ``.node`` both are written, with ``.neigh`` all three of them.
 
     Raises
     ------
     FormatError
-        The suffix is unknown, or the format can't hold the mesh (wire in OFF).
+        The suffix is unknown, or the format can't hold the mesh (wire in OFF, polygons in ``.ele``).
     ElementError
         The first argument is no mesh.
     OSError
@@ -165,6 +166,7 @@ def write(
     edges: ArrayLike | None = None,
     vertex: Mapping[str, ArrayLike] | None = None,
     halfedge: Mapping[str, ArrayLike] | None = None,
+    edge: Mapping[str, ArrayLike] | None = None,
     face: Mapping[str, ArrayLike] | None = None,
     meta: Mapping[str, Any] | None = None,
 ) -> None:
@@ -177,9 +179,10 @@ def write(
     points : (n, 3) or (n, 2) array_like of float
     edges : (n, 2) array_like of int, optional
         Edges without faces.
-    vertex, halfedge, face : mapping of str to array_like, optional
-        Attributes: a row for each vertex, corner and face. ``color normal texcoord`` are understood, in OBJ also the
-        integer labels ``group object material smoothing`` of faces.
+    vertex, halfedge, edge, face : mapping of str to array_like, optional
+        Attributes: a row for each vertex, corner, row of `edges`, and face. ``color normal texcoord`` are understood,
+        in OBJ also the integer labels ``group object material smoothing`` of faces, in the files of Triangle
+        ``marker`` and ``attributes``.
     meta : mapping, optional
         The names behind labels, as in :class:`MeshData`.
 
@@ -208,10 +211,13 @@ def write(
     """
     from halfmesh.io.arrays import as_data
 
-    _write(as_data(faces, points, edges, vertex, halfedge, face, meta), path)
+    _write(as_data(faces, points, edges, vertex, halfedge, edge, face, meta), path)
 
 
 def _write(data: MeshData, path: Path) -> None:
-    from halfmesh.io.target import replace_file
+    from halfmesh._files import replace_files
+    from halfmesh.io.triangle_files import companion
 
-    replace_file(path, format_of(path).write(data, os.fspath(path)))
+    name, format = os.fspath(path), format_of(path)
+    others = ((companion(name, suffix), FORMATS[suffix]) for suffix in format.beside)
+    replace_files((each, form.write(data, each)) for each, form in ((name, format), *others))

@@ -23,6 +23,7 @@ def as_data(
     edges: ArrayLike | None,
     vertex: Table,
     halfedge: Table,
+    edge: Table,
     face: Table,
     meta: Mapping[str, Any] | None,
 ) -> MeshData:
@@ -38,6 +39,7 @@ def as_data(
         _check_range(data.edges, n, "edges")
     data.vertex = _as_attributes(vertex, n, "vertex")
     data.halfedge = _as_attributes(halfedge, len(data.indices), "corner")
+    data.edge = _as_attributes(edge, len(data.edges), "edge")
     data.face = _as_attributes(face, data.n_faces, "face")
     data.meta = dict(meta or {})
     return data

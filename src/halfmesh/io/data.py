@@ -32,13 +32,14 @@ class MeshData:
         Where each face begins in `indices`, and the end.
     points : ndarray of float64, shape (n_vertices, 3)
     edges : ndarray of int32, shape (n, 2)
-        Edges without faces (the ``l`` elements of OBJ).
-    vertex, halfedge, face : dict of str to ndarray
-        Named attributes, one row for each vertex, corner (in the order of `indices`) and face. Rows that the file
-        leaves out are NaN.
+        Edges without faces (the ``l`` elements of OBJ, the segments of ``.poly``).
+    vertex, halfedge, edge, face : dict of str to ndarray
+        Named attributes, one row for each vertex, corner (in the order of `indices`), row of `edges` and face. Rows
+        that the file leaves out are NaN.
     meta : dict
         What is no array: ``comments``, the names behind integer labels (``groups objects materials``),
-        ``material_libraries``, the counts ``n_point_elements`` and ``ignored`` (keyword to count).
+        ``material_libraries``, the counts ``n_point_elements`` and ``ignored`` (keyword to count); of Triangle's files
+        the ``first_number`` that they count from, ``holes`` and ``regions``.
 
     Examples
     --------
@@ -53,6 +54,7 @@ class MeshData:
     edges: Ints = field(default_factory=_no_edges)
     vertex: Attributes = field(default_factory=dict)
     halfedge: Attributes = field(default_factory=dict)
+    edge: Attributes = field(default_factory=dict)
     face: Attributes = field(default_factory=dict)
     meta: dict[str, Any] = field(default_factory=dict)
 

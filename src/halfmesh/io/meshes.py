@@ -35,15 +35,24 @@ def mesh_of(data: MeshData, path: str) -> Mesh:
             mesh.halfedge_data[name] = _spread(values, of_corner, len(mesh.topology.next))
     if len(marked):
         mesh.edge_data[LINE] = np.isin(_keys(mesh.edge_vertices(), data.n_vertices), marked)
+    if data.edge:
+        _hang_on_edges(mesh, data)
     mesh.meta.update(data.meta)
     return mesh
 
 
 def data_of(mesh: Mesh) -> MeshData:
-    """The living elements of a mesh as a file holds them."""
+    """The living elements of a mesh as a file holds them: numbered without gaps."""
+    t = mesh.topology
+    slots = (len(t.vertex_halfedge), len(t.next), len(t.face_halfedge))
+    if (mesh.n_vertices, mesh.n_halfedges, mesh.n_faces) != slots:
+        mesh = mesh.copy()
+        mesh.compact()
     indices, offsets = mesh.face_vertices()
     data = MeshData(indices, offsets, mesh.points)
-    data.edges = mesh.edge_vertices()[_is_line(mesh)]
+    lines = _is_line(mesh)
+    data.edges = mesh.edge_vertices()[lines]
+    data.edge = {name: values[lines] for name, values in mesh.edge_data.items() if name != LINE}
     data.vertex = {name: values for name, values in mesh.vertex_data.items() if name not in _OWN}
     data.face = dict(mesh.face_data.items())
     if len(mesh.halfedge_data):
@@ -65,6 +74,16 @@ def _lines(data: MeshData) -> tuple[NDArray[np.int32], NDArray[np.int64]]:
     return data.edges[np.sort(first[~along])], keys[along]
 
 
+def _hang_on_edges(mesh: Mesh, data: MeshData) -> None:
+    """Attributes of lines, on the edges that they became; of several rows for an edge the first counts."""
+    keys, first = np.unique(_keys(data.edges, data.n_vertices), return_index=True)
+    of_edge = _keys(mesh.edge_vertices(), data.n_vertices)
+    places = np.flatnonzero(np.isin(of_edge, keys))
+    rows = first[np.searchsorted(keys, of_edge[places])]
+    for name, values in data.edge.items():
+        mesh.edge_data[name] = _spread(values[rows], places, len(of_edge))
+
+
 def _keys(pairs: NDArray[Any], n_vertices: int) -> NDArray[np.int64]:
     """One number for each unordered pair."""
     low, high = pairs.min(axis=1).astype(np.int64), pairs.max(axis=1).astype(np.int64)
@@ -79,7 +98,7 @@ def _is_line(mesh: Mesh) -> NDArray[np.bool_]:
     return wire
 
 
-def _spread(values: NDArray[Any], places: NDArray[np.int32], n: int) -> NDArray[Any]:
+def _spread(values: NDArray[Any], places: NDArray[Any], n: int) -> NDArray[Any]:
     spread = np.full((n, *values.shape[1:]), np.nan if values.dtype.kind == "f" else 0, dtype=values.dtype)
     spread[places] = values
     return spread

@@ -27,12 +27,12 @@ from halfmesh.io.data import Attributes, MeshData
 from halfmesh.io.numbers import powers_of_ten
 from halfmesh.io.off_binary import read_binary
 from halfmesh.io.off_header import Header, as_color, read_header
-from halfmesh.io.source import Source, count_lines, count_plain_lines, interpreted_size, skip_gaps
+from halfmesh.io.rows import lines_in, state_at, to_the_end
+from halfmesh.io.source import Source, interpreted_size, skip_gaps
 
 __all__ = ["read_off"]
 
 _MOST_OPEN = 2048
-_FEW = 3000  # as `kernel.at` has it
 
 
 def read_off(source: Source) -> MeshData:
@@ -123,24 +123,16 @@ class _Text:
     def _parts(self) -> list[_Part]:
         """One part for each thread if every element has its own line, else one part for the whole text."""
         n_vertices, n_faces = self.header.n_vertices, self.header.n_faces
-        spans = self.source.parts(self.begin)
-        lines = parallel(self._count_lines, spans)
-        if sum(lines) < n_vertices + n_faces:
+        spans = lines_in(self.source, self.begin)
+        if spans[-1].last < n_vertices + n_faces:
             self.as_stream = True
             return [self._whole()]
-        parts, line = [], 0
-        for (begin, end), n in zip(spans, lines, strict=True):
-            rows = (line, line + n)
-            vertex, last_vertex = (min(x, n_vertices) for x in rows)
-            face, last_face = (min(max(x - n_vertices, 0), n_faces) for x in rows)
+        parts = []
+        for begin, end, *lines in spans:
+            vertex, last_vertex = (min(x, n_vertices) for x in lines)
+            face, last_face = (min(max(x - n_vertices, 0), n_faces) for x in lines)
             parts.append(_Part(begin, end, vertex, last_vertex, face, last_face))
-            line += n
         return parts
-
-    def _count_lines(self, begin: int, end: int) -> int:
-        data = self.source.data
-        n = count_plain_lines.at(self.size)(data[begin:end]) if self.size > _FEW else -1
-        return n if n >= 0 else count_lines.at(self.size)(data, begin, end)
 
     def _whole(self) -> _Part:
         return _Part(self.begin, self.source.end, 0, self.header.n_vertices, 0, self.header.n_faces)
@@ -162,7 +154,7 @@ class _Text:
         return _Piece(corners, dotted, extras_dotted)
 
     def _read_vertices(self, part: _Part) -> int:
-        state = _state(part.begin, part.vertex)
+        state = state_at(part.begin, part.vertex)
         run = k.read_vertices.at(self.size)
         undecided = np.empty(2 * max(_MOST_OPEN, self.width), dtype=np.int64)
         data, values = self.source.padded, self.values.reshape(-1)
@@ -175,7 +167,7 @@ class _Text:
         return int(state[k.SEEN])
 
     def _read_faces(self, part: _Part) -> tuple[NDArray[np.int32], int]:
-        state = _state(part.begin, part.face)
+        state = state_at(part.begin, part.face)
         run = k.read_faces.at(self.size)
         undecided = np.empty(2 * _MOST_OPEN, dtype=np.int64)
         corners = self.room[(part.begin - self.begin) // 2 :]
@@ -205,17 +197,10 @@ class _Text:
     def _to_the_end(
         self, step: Callable[[], None], state: Any, undecided: Any, values: NDArray[np.float64], kind: str
     ) -> None:
-        while True:
-            step()
-            self._decide(undecided[: 2 * state[k.N_OPEN]].reshape(-1, 2), values)
-            if state[k.CODE] == k.DONE:
-                return
-            if state[k.CODE] != k.AGAIN:
-                self._raise(int(state[k.CODE]), int(state[k.WHERE]), int(state[k.ROW]), kind)
+        def refuse(code: int, at: int, row: int) -> NoReturn:
+            self._raise(code, at, row, kind)
 
-    def _decide(self, undecided: NDArray[np.int64], values: NDArray[np.float64]) -> None:
-        for at, place in undecided.tolist():
-            values[place] = self.source.number(at)
+        to_the_end(self.source, step, state, undecided, values, refuse)
 
     def _raise(self, code: int, at: int, row: int, kind: str) -> NoReturn:
         self.has_short_line |= code == k.LINE_ENDS
@@ -246,12 +231,6 @@ class _Text:
         if kind == "vertex":
             return f"the line of vertex {row} has more than {form}, which the first vertex line has; expected the same"
         return f"face {row}: expected a colour of 1, 3 or 4 numbers or the end of the line, found {found}"
-
-
-def _state(position: int, row: int) -> NDArray[np.int64]:
-    state = np.zeros(k.N_STATE, dtype=np.int64)
-    state[k.POSITION], state[k.ROW] = position, row
-    return state
 
 
 def _face_colors(faces: _Elements) -> Attributes:
