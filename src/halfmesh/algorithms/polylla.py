@@ -49,7 +49,9 @@ def polylla(mesh: Asked, *, report: Literal[False] = ..., progress: Progress | N
 def polylla(mesh: Asked, *, report: Literal[True], progress: Progress | None = ...) -> tuple[Mesh, PolyllaReport]: ...
 
 
-def polylla(mesh: Asked, *, report: bool = False, progress: Progress | None = None) -> Mesh | tuple[Mesh, PolyllaReport]:
+def polylla(
+    mesh: Asked, *, report: bool = False, progress: Progress | None = None
+) -> Mesh | tuple[Mesh, PolyllaReport]:
     """Join the triangles of a mesh into simple polygons: the Polylla mesh of a triangulation.
 
     Parameters
