@@ -9,6 +9,7 @@ from __future__ import annotations
 import contextlib
 import importlib
 import pkgutil
+import subprocess
 import sys
 import tempfile
 import types
@@ -27,7 +28,7 @@ from halfmesh.core.slots import reserve
 from halfmesh.shapes._engine import Triangles
 from halfmesh.shapes.triangulations import _trimmed
 
-__all__ = ["jobs", "kernels_of", "n_compiled_here", "n_from_cache", "never_compiled", "warm_up"]
+__all__ = ["Helper", "help_out", "jobs", "kernels_of", "n_compiled_here", "n_from_cache", "never_compiled", "warm_up"]
 
 Job = tuple[str, Callable[[Path], object]]
 
@@ -58,6 +59,34 @@ def warm_up() -> Generator[tuple[str, int, int], None, None]:
             yield name, i, len(todo)
             job(Path(folder))
     yield "done", len(todo), len(todo)
+
+
+class Helper:
+    """Another process that does the jobs from the last to the first, and leaves what it compiles in the cache.
+
+    Compiling keeps the GIL, so a thread would be no help. Whoever does the jobs from the first on meets the helper in
+    the middle, and finds the rest in the cache; then the helper is of no use any more.
+    """
+
+    def __init__(self) -> None:
+        self._folder = tempfile.TemporaryDirectory()
+        command = [sys.executable, "-c", "from halfmesh.warmup import help_out; help_out()", self._folder.name]
+        self._process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
+
+    def dismiss(self) -> int:
+        """Stop it; how many kernels it has compiled."""
+        self._process.terminate()
+        said = self._process.communicate()[0].split()
+        self._folder.cleanup()
+        return int(said[-1]) if said else 0
+
+
+def help_out() -> None:
+    """What a `Helper` does: after each job it says how many kernels it has compiled so far."""
+    with _jit.compiling_always():
+        for _, job in reversed(jobs()):
+            job(Path(sys.argv[1]))
+            print(n_compiled_here(), flush=True)
 
 
 def jobs() -> list[Job]:

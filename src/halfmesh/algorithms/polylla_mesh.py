@@ -27,13 +27,14 @@ from halfmesh.algorithms._polylla_marks import (
 from halfmesh.algorithms._polylla_repair import repair
 from halfmesh.algorithms._polylla_report import PHASES, PolyllaReport
 from halfmesh.algorithms._polylla_travel import travel
-from halfmesh.core.navigation import edge_of
+from halfmesh.core.navigation import edge_of, edge_slots, face_slots, vertex_slots
 from halfmesh.core.topology import Arrays, Topology
 from halfmesh.errors import PreconditionError
 from halfmesh.geometry._passes import Floats, points_of
+from halfmesh.mesh import Mesh
 
 if TYPE_CHECKING:
-    from halfmesh.mesh.mesh import Mesh
+    from halfmesh.mesh.asking import Asked
 
 __all__ = ["PolyllaReport", "polylla"]
 
@@ -41,19 +42,21 @@ Progress = Callable[[str, float], None]
 
 
 @overload
-def polylla(mesh: Mesh, *, report: Literal[False] = ..., progress: Progress | None = ...) -> Mesh: ...
+def polylla(mesh: Asked, *, report: Literal[False] = ..., progress: Progress | None = ...) -> Mesh: ...
 
 
 @overload
-def polylla(mesh: Mesh, *, report: Literal[True], progress: Progress | None = ...) -> tuple[Mesh, PolyllaReport]: ...
+def polylla(mesh: Asked, *, report: Literal[True], progress: Progress | None = ...) -> tuple[Mesh, PolyllaReport]: ...
 
 
-def polylla(mesh: Mesh, *, report: bool = False, progress: Progress | None = None) -> Mesh | tuple[Mesh, PolyllaReport]:
+def polylla(
+    mesh: Asked, *, report: bool = False, progress: Progress | None = None
+) -> Mesh | tuple[Mesh, PolyllaReport]:
     """Join the triangles of a mesh into simple polygons: the Polylla mesh of a triangulation.
 
     Parameters
     ----------
-    mesh : Mesh
+    mesh : Mesh, TriangleMesh or CompactMesh
         Triangles with points, in the plane or on any surface; with boundaries, holes, several components, or closed.
         It stays as it is.
     report : bool
@@ -132,7 +135,7 @@ class Sizes(NamedTuple):
 
     @classmethod
     def of(cls, t: Topology) -> Sizes:
-        return cls(len(t.vertex_halfedge), len(t.next) // 2, len(t.face_halfedge))
+        return cls(int(vertex_slots(t)), int(edge_slots(t)), int(face_slots(t)))
 
 
 class Partition(NamedTuple):
@@ -184,7 +187,7 @@ def _refuse(code: int, face: int) -> NoReturn:
     )
 
 
-def _compacted(mesh: Mesh) -> tuple[Mesh, Ints | None]:
+def _compacted(mesh: Any) -> tuple[Any, Ints | None]:
     """The mesh, or a copy without what was deleted, and the face there of each face here."""
     t = mesh.topology
     if (mesh.n_vertices, mesh.n_edges, mesh.n_faces) == tuple(Sizes.of(t)):
@@ -193,10 +196,10 @@ def _compacted(mesh: Mesh) -> tuple[Mesh, Ints | None]:
     return copy, copy.compact().faces
 
 
-def _with_attributes(source: Mesh, partition: Partition) -> Mesh:
-    made = object.__new__(type(source))
+def _with_attributes(source: Any, partition: Partition) -> Mesh:
+    made = object.__new__(type(source) if isinstance(source, Mesh) else Mesh)
     made._hold(Topology(partition.arrays))
-    made.has_points, made.meta = True, deepcopy(source._meta)
+    made.has_points, made.meta = True, deepcopy(source.meta)
     made.vertex_data._adopt(source.vertex_data._columns_in_use())
     old = partition.old_halfedges
     if old is not None:

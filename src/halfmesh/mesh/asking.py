@@ -33,6 +33,7 @@ class Asked(Counted):
     halfedge_data: AttributeTable
     edge_data: AttributeTable
     face_data: AttributeTable
+    has_points: bool
     build_seconds: float
     _family: ClassVar[Mapping[str, Any]] = KINDS  # the classes of its handles
 

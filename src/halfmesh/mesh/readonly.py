@@ -34,6 +34,7 @@ class ReadOnlyMesh(Asked):
         self._topology: Any = topology
         self._t = topology.__views__()
         self._cache: dict[str, tuple[int, Any]] = {}
+        self.meta: dict[str, Any] = {}
         counts = self._t.counts
         self.vertex_data = AttributeTable("vertex", lambda: counts[VERTEX_SLOTS], ("points",))
         self.halfedge_data = AttributeTable("halfedge", lambda: 2 * counts[EDGE_SLOTS])
