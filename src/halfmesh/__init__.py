@@ -66,6 +66,7 @@ from halfmesh.mesh import Edge, Face, Halfedge, Mesh, Vertex
 if TYPE_CHECKING:
     from halfmesh import algorithms, geometry, io, shapes, testing, viewer
     from halfmesh.algorithms import triangulate, triangulate_face, triangulate_face_status, triangulated
+    from halfmesh.algorithms.polylla import PolyllaReport, polylla
     from halfmesh.io import load, save
     from halfmesh.mesh.compact_mesh import CompactMesh
     from halfmesh.mesh.readonly import TriangleMesh
@@ -75,8 +76,10 @@ __version__ = "0.1.0"
 _ROOMS = ("algorithms", "geometry", "io", "shapes", "testing", "viewer")
 _LATER = dict.fromkeys(_ROOMS, "") | {
     "CompactMesh": "mesh.compact_mesh",
+    "PolyllaReport": "algorithms",
     "TriangleMesh": "mesh.readonly",
     "load": "io",
+    "polylla": "algorithms",
     "save": "io",
     "triangulate": "algorithms",
     "triangulate_face": "algorithms",
@@ -109,6 +112,7 @@ __all__ = [
     "HalfmeshError",
     "InvalidMeshError",
     "Mesh",
+    "PolyllaReport",
     "PreconditionError",
     "StaleElementError",
     "TopologyError",
@@ -147,6 +151,7 @@ __all__ = [
     "opposite_face_of",
     "origin_of",
     "outgoing",
+    "polylla",
     "prev_of",
     "save",
     "shapes",

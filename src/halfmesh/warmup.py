@@ -77,6 +77,7 @@ def jobs() -> list[Job]:
         ("changing", lambda _: _change()),
         ("cutting and sewing", lambda _: _sew()),
         ("triangulating", lambda _: _triangulate()),
+        ("joining triangles", lambda _: _join_triangles()),
         ("walking in kernels", lambda _: _walk(hm.shapes.cube(), 0)),
         ("smoothing", lambda _: _smooth()),
     ]
@@ -280,6 +281,12 @@ def _triangulate() -> None:
             hm.triangulate_face_status(mesh, points, 0)
             hm.triangulate_face(mesh, points, 0)
         hm.triangulate(mesh)
+
+
+def _join_triangles() -> None:
+    """A closed surface where all edges are equally long, to be repaired; and wire at a boundary."""
+    hm.polylla(hm.shapes.tetrahedron())
+    hm.polylla(hm.Mesh([[0, 1, 2]], np.eye(4, 3), edges=[[2, 3]]))
 
 
 @hm.kernel
