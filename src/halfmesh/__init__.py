@@ -70,6 +70,7 @@ if TYPE_CHECKING:
     from halfmesh.io import load, save
     from halfmesh.mesh.compact_mesh import CompactMesh
     from halfmesh.mesh.readonly import TriangleMesh
+    from halfmesh.shapes import delaunay
 
 __version__ = "0.1.0"
 
@@ -78,6 +79,7 @@ _LATER = dict.fromkeys(_ROOMS, "") | {
     "CompactMesh": "mesh.compact_mesh",
     "PolyllaReport": "algorithms",
     "TriangleMesh": "mesh.readonly",
+    "delaunay": "shapes",
     "load": "io",
     "polylla": "algorithms",
     "save": "io",
@@ -121,6 +123,7 @@ __all__ = [
     "algorithms",
     "ccw_of",
     "cw_of",
+    "delaunay",
     "edge_of",
     "edge_slots",
     "edges_around",

@@ -24,6 +24,8 @@ from halfmesh.core.operators import building
 from halfmesh.core.pens import rewind
 from halfmesh.core.search import find_halfedge
 from halfmesh.core.slots import reserve
+from halfmesh.shapes._engine import Triangles
+from halfmesh.shapes.triangulations import _trimmed
 
 __all__ = ["jobs", "kernels_of", "n_compiled_here", "n_from_cache", "never_compiled", "warm_up"]
 
@@ -78,6 +80,7 @@ def jobs() -> list[Job]:
         ("cutting and sewing", lambda _: _sew()),
         ("triangulating", lambda _: _triangulate()),
         ("joining triangles", lambda _: _join_triangles()),
+        ("cutting holes", lambda _: _cut_holes()),
         ("walking in kernels", lambda _: _walk(hm.shapes.cube(), 0)),
         ("smoothing", lambda _: _smooth()),
     ]
@@ -106,6 +109,13 @@ def _gather(mesh: hm.Mesh) -> None:
     for question in (mesh.face_vertices, mesh.face_neighbors, mesh.vertex_neighbors, mesh.vertex_faces):
         question()
     find_halfedge(mesh, 0, 1)
+
+
+def _cut_holes() -> None:
+    """What follows on a triangulation of points, for which a library is needed that may not be there."""
+    mesh = hm.shapes.grid(3, triangles=True)
+    sides = mesh.edge_vertices()
+    _trimmed(mesh, Triangles(mesh.triangles(), sides, np.arange(len(sides), dtype=np.int32)), np.ones((1, 2)), True)
 
 
 def _measure(mesh: hm.Mesh) -> None:

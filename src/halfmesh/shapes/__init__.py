@@ -11,11 +11,13 @@ from halfmesh.shapes.known import moebius_faces, seed_triangulation
 from halfmesh.shapes.solids import cube, dodecahedron, icosahedron, octahedron, tetrahedron
 from halfmesh.shapes.spheres import icosphere
 from halfmesh.shapes.surfaces import cone_fan, cylinder, disk, grid, polygon, torus
+from halfmesh.shapes.triangulations import delaunay, random_triangulation
 
 __all__ = [
     "cone_fan",
     "cube",
     "cylinder",
+    "delaunay",
     "disk",
     "dodecahedron",
     "grid",
@@ -24,6 +26,7 @@ __all__ = [
     "moebius_faces",
     "octahedron",
     "polygon",
+    "random_triangulation",
     "seed_triangulation",
     "tetrahedron",
     "torus",
