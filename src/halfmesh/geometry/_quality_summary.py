@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["HEADER", "QualitySummary", "Spread", "summarized"]
+__all__ = ["QualitySummary", "Spread", "summarized"]
 
 
 @dataclass(frozen=True)
@@ -73,7 +73,7 @@ class QualitySummary:
         return made
 
     def __str__(self) -> str:
-        rows = [HEADER, *self.rows()]
+        rows = [_HEADER, *self.rows()]
         widths = [max(len(cell) for cell in column) for column in zip(*rows, strict=True)]
         lines = [f"{label:<{widths[0]}}  {value}" for label, value in self.counts()]
         for label, *cells in rows:
@@ -82,7 +82,7 @@ class QualitySummary:
         return "\n".join(lines)
 
 
-HEADER = ("", "least", "mean", "greatest")
+_HEADER = ("", "least", "mean", "greatest")
 _ROWS = (
     ("n_sides", "sides", 1.0, 2),
     ("min_angle", "smallest angle, degrees", 180.0 / math.pi, 1),

@@ -46,7 +46,7 @@ def _box(x: Any, y: Any, n: int, ax: Any, ay: Any) -> int:
 
 @kernel
 def _cut(px: float, py: float, dx: float, dy: float, ax: Any, ay: Any, m: int, bx: Any, by: Any) -> int:
-    """Write what a convex polygon has to the left of the line through (px, py) along (dx, dy), m + 1 corners or less."""
+    """Write what a convex polygon has to the left of a line through (px, py) along (dx, dy), up to m + 1 corners."""
     n = 0
     i = m - 1
     before = dx * (ay[i] - py) - dy * (ax[i] - px)

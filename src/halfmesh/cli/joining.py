@@ -1,0 +1,98 @@
+"""``halfmesh polylla``: a mesh of triangles in, a mesh of polygons out, and what there is to say about it."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+from rich.text import Text
+
+import halfmesh as hm
+from halfmesh.cli.pages import console, progress_bar
+from halfmesh.geometry import QualitySummary, polygon_quality
+from halfmesh.viewer import save_polygons_plot
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+__all__ = ["Joined", "join", "show_joined"]
+
+MOST_BELOW = 5_000  # triangles drawn below the polygons; more are only a gray veil
+
+
+@dataclass(frozen=True)
+class Joined:
+    """What was made of a file.
+
+    Attributes
+    ----------
+    source, target : Path
+    report : PolyllaReport
+    quality : QualitySummary or None
+        Of the polygons, if it was asked for.
+    """
+
+    source: Path
+    target: Path
+    report: hm.PolyllaReport
+    quality: QualitySummary | None
+
+    def as_dict(self) -> dict[str, Any]:
+        """Plain numbers and texts, for JSON."""
+        made = {"file": str(self.source), "out": str(self.target), "report": self.report.as_dict()}
+        return made | ({"quality": self.quality.as_dict()} if self.quality else {})
+
+
+def join(source: Path, target: Path, *, plot: Path | None, quality: bool) -> Joined:
+    """Read triangles, join them, write the polygons; with a bar where somebody is watching."""
+    out = console()
+    n_steps = 3 + quality + (plot is not None)
+    with progress_bar(out) as bar:
+        task = bar.add_task("reading", total=n_steps)
+
+        def done(step: float, following: str) -> None:
+            bar.update(task, completed=step, description=following)
+
+        mesh = hm.load(source)
+        done(1, "joining triangles")
+        polygons, report = hm.polylla(mesh, report=True, progress=_within(done))
+        done(2, "writing")
+        hm.save(polygons, target)
+        done(3, "measuring")
+        summary = polygon_quality(polygons).summary() if quality else None
+        done(3 + quality, "drawing")
+        if plot is not None:
+            save_polygons_plot(polygons, plot, triangulation=mesh if mesh.n_faces <= MOST_BELOW else None)
+        done(n_steps, "done")
+    return Joined(source, target, report, summary)
+
+
+def _within(done: Callable[[float, str], None]) -> Callable[[str, float], None]:
+    """The second step, which tells about itself as it goes."""
+    return lambda phase, fraction: done(1 + fraction, f"joining triangles: {phase} done")
+
+
+def show_joined(made: Joined, *, plot: Path | None, as_json: bool) -> None:
+    """Print it: a line, and the tables if the quality was measured."""
+    if as_json:
+        click.echo(json.dumps(made.as_dict(), indent=2))
+        return
+    report = made.report
+    name = click.format_filename(made.target)
+    click.echo(f"{name}: {report.n_polygons:,} polygons from {report.n_triangles:,} triangles")
+    if plot is not None:
+        click.echo(f"{click.format_filename(plot)}: their picture")
+    if made.quality is not None:
+        for title, table in (("report", str(report)), ("quality", str(made.quality))):
+            _show_table(title, table)
+
+
+def _show_table(title: str, table: str) -> None:
+    out = console()
+    out.print()
+    out.print(Text(title, style="bold"))
+    for line in table.splitlines():
+        out.print(Text(f"  {line}"))
