@@ -1,8 +1,8 @@
 """Polylla by the book, over dicts and sets: the slow twin of `hm.polylla`, and the certificate of its results.
 
-Written from the description of the algorithm, for triangles without parallel edges: longest edges, regions by union-find
-over the edges that are the longest of one of their triangles, a walk around each region, cuts where it passes a vertex
-twice. Paths between triangles are searched for; the library never looks for one.
+Written from the description of the algorithm, for triangles without parallel edges: longest edges, regions by
+union-find over the edges that are the longest of one of their triangles, a walk around each region, cuts where it
+passes a vertex twice. Paths between triangles are searched for; the library never looks for one.
 """
 
 from __future__ import annotations
@@ -17,8 +17,8 @@ import halfmesh as hm
 class Twin:
     """The polygons of triangles, given as a list of three vertices each and points as tuples of three floats.
 
-    Attributes: `polygons` as lists of vertices; `regions`, a set of triangles for each; `n_tips`, `n_repaired`, `n_added`;
-    and `defects`, the vertices that each region passed twice before the repair.
+    Attributes: `polygons` as lists of vertices; `regions`, a set of triangles for each; `n_tips`, `n_repaired`,
+    `n_added`; and `defects`, the vertices that each region passed twice before the repair.
     """
 
     def __init__(self, triangles, points):
@@ -58,7 +58,9 @@ class Twin:
 
     def walk(self, region):
         """The directed sides around a region, in their order."""
-        start = next(s for f in sorted(region) for s in sides_of(self.triangles[f]) if frozenset(s) not in self.internal)
+        start = next(
+            s for f in sorted(region) for s in sides_of(self.triangles[f]) if frozenset(s) not in self.internal
+        )
         loop = [start]
         while (side := self.following(loop[-1])) != start:
             loop.append(side)
@@ -148,7 +150,7 @@ def certify(mesh, polygons, report):
         assert sorted(side for side in own if side[::-1] not in own) == sorted(sides_of(face)), "not its triangles"
     assert (report.n_triangles, report.n_polygons) == (mesh.n_faces, len(faces))
     assert report.n_frontier_edges == int(((left >= 0) | (right >= 0)).sum())
-    assert 2 * report.n_frontier_edges == mesh.n_faces + 2 * len(faces) + int((left < 0).sum() + (right < 0).sum())
+    assert 2 * report.n_frontier_edges == mesh.n_faces + 2 * len(faces) + int(((left < 0) != (right < 0)).sum())
 
 
 def summed_areas(mesh, report):
@@ -174,7 +176,7 @@ def sides_of(face):
     return list(zip(face, [*face[1:], face[0]], strict=True))
 
 
-# -------------------------------------------------------------------------------------------------------- triangulations
+# ------------------------------------------------------------------------------------------------------- triangulations
 
 
 def delaunay(points):

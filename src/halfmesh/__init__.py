@@ -65,8 +65,14 @@ from halfmesh.mesh import Edge, Face, Halfedge, Mesh, Vertex
 
 if TYPE_CHECKING:
     from halfmesh import algorithms, geometry, io, shapes, testing, viewer
-    from halfmesh.algorithms import triangulate, triangulate_face, triangulate_face_status, triangulated
-    from halfmesh.algorithms.polylla import PolyllaReport, polylla
+    from halfmesh.algorithms import (
+        PolyllaReport,
+        polylla,
+        triangulate,
+        triangulate_face,
+        triangulate_face_status,
+        triangulated,
+    )
     from halfmesh.io import load, save
     from halfmesh.mesh.compact_mesh import CompactMesh
     from halfmesh.mesh.readonly import TriangleMesh

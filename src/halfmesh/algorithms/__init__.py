@@ -9,7 +9,7 @@
 
 from __future__ import annotations
 
-from halfmesh.algorithms.polylla import PolyllaReport, polylla
+from halfmesh.algorithms.polylla_mesh import PolyllaReport, polylla
 from halfmesh.algorithms.triangulation import (
     triangulate,
     triangulate_face,

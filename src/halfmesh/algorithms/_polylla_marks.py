@@ -78,7 +78,7 @@ def _mark_longest(t: Any, points: Any, marks: Any, low: int, high: int) -> tuple
             return REPEATED_VERTEX, f
         d0, d1, d2 = _squared(points, a, b), _squared(points, b, c), _squared(points, c, a)
         longest = max(d0, d1, d2)
-        if not longest < np.inf:
+        if not d0 + d1 + d2 < np.inf:  # nor is NaN
             return NOT_FINITE, f
         is0, is1, is2 = d0 == longest, d1 == longest, d2 == longest
         if is0 + is1 + is2 != 1:
