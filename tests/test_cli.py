@@ -184,8 +184,8 @@ def triangles(tmp_path: Path) -> Path:
     return path
 
 
-@pytest.mark.parametrize("suffix", [suffix for suffix, form in FORMATS.items() if form.write is not None])
-def test_polylla_writes_the_polygons_in_every_format(triangles: Path, tmp_path: Path, suffix: str) -> None:
+@pytest.mark.parametrize("suffix", [suffix for suffix in (".off", ".obj", ".ale") if suffix in FORMATS])
+def test_polylla_writes_every_format_that_holds_polygons(triangles: Path, tmp_path: Path, suffix: str) -> None:
     result = run("polylla", triangles, tmp_path / f"polygons{suffix}")
     assert result.exit_code == 0, result.output
     assert result.stdout == f"{tmp_path / f'polygons{suffix}'}: 5 polygons from 12 triangles\n"

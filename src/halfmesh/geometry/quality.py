@@ -86,9 +86,10 @@ def polygon_quality(mesh: Mesh) -> PolygonQuality:
 
     Notes
     -----
-    The measures are those by which polygons are judged for the virtual element method and its kin: smallest and
-    largest angle, edge ratio, area-perimeter ratio (their APR up to the factor that makes it 1 for a disk) and
-    kernel-area ratio (KAR). The theory of these methods asks for polygons that are star-shaped, with no short sides.
+    The measures are those by which polygons are judged for the virtual element method and its kin, whose theory asks
+    for star-shaped polygons without short sides: smallest and largest angle, edge ratio, area-perimeter ratio,
+    kernel-area ratio. The area-perimeter ratio is normalized differently by different authors; ``sqrt(area) /
+    perimeter``, for one, is ``sqrt(ratio / (4 pi))``.
 
     The kernel is cut out of the polygon's bounding box by the lines through its sides. O(n) for polygons of bounded
     degree, on all threads; a polygon of k sides that is not convex takes O(k m), where m <= k + 4 is the number of

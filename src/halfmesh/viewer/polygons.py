@@ -64,12 +64,14 @@ def plot_polygons(mesh: Mesh, *, triangulation: Mesh | None = None, ax: Any = No
     sides = mesh.face_degrees()[mesh.faces.indices]
     classes = np.searchsorted(CLASSES, np.maximum(sides, CLASSES[0]), side="right") - 1
     colors = [COLORS[i] for i in classes.tolist()]
-    width = float(np.clip(26.0 / max(len(sides), 1) ** 0.5, FINE, COARSE))
+    width = float(np.clip(22.0 / max(len(sides), 1) ** 0.5, FINE, COARSE))
     if is_flat(mesh):
         axes = drawn(mesh, ax, facecolors=colors, edgecolors="none", zorder=1)
         if triangulation is not None:
             axes.add_collection(_lines(triangulation, colors=BELOW, linewidths=0.3 * width, alpha=0.6, zorder=2))
-        axes.add_collection(_lines(mesh, colors=OUTLINE, linewidths=width, capstyle="round", zorder=3))
+        rim = (mesh.edge_faces()[mesh.edges.indices] < 0).any(axis=1)
+        widths = np.where(rim, 1.5 * width, width)
+        axes.add_collection(_lines(mesh, colors=OUTLINE, linewidths=widths, capstyle="round", zorder=3))
     else:
         axes = drawn(mesh, ax, facecolors=colors, edgecolors=OUTLINE, linewidths=width)
         axes.set_box_aspect(np.diff(axes.get_w_lims())[::2], zoom=1.4)  # of the room that hidden axes leave
