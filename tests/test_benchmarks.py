@@ -26,7 +26,8 @@ def test_every_call_gets_a_fresh_state() -> None:
         state.clear()
 
     race({"way": Way(use_up, fresh=lambda: [1, 2, 3])}, QUICK, 1)
-    assert lengths == [3] * (1 + QUICK.rounds)
+    assert len(lengths) >= 2  # a busy machine gets fewer rounds
+    assert set(lengths) == {3}
 
 
 @pytest.mark.parametrize(

@@ -81,6 +81,7 @@ def jobs() -> list[Job]:
         ("triangulating", lambda _: _triangulate()),
         ("joining triangles", lambda _: _join_triangles()),
         ("cutting holes", lambda _: _cut_holes()),
+        ("reading in little memory", _read_compact),
         ("walking in kernels", lambda _: _walk(hm.shapes.cube(), 0)),
         ("smoothing", lambda _: _smooth()),
     ]
@@ -297,6 +298,26 @@ def _join_triangles() -> None:
     """A closed surface where all edges are equally long, to be repaired; and wire at a boundary."""
     hm.polylla(hm.shapes.tetrahedron())
     hm.polylla(hm.Mesh([[0, 1, 2]], np.eye(4, 3), edges=[[2, 3]]))
+
+
+def _read_compact(folder: Path) -> None:
+    """What is only read, also with wire, holes and several components; and the words that handles ask compiled."""
+    several = hm.shapes.grid(3, 3)
+    several.make_hole(4)
+    several.append(hm.Mesh([], edges=[[0, 1]], n_vertices=2))
+    for mesh in (several, hm.shapes.icosphere(1)):
+        small = hm.CompactMesh(mesh, maps=True)
+        small.to_mesh()
+        small.save(folder / "mesh.hmc")
+        hm.CompactMesh.load(folder / "mesh.hmc")
+    for handles, words in (
+        (small.halfedges, "next prev twin ccw cw origin target face edge"),
+        (small.edges, "halfedge"),
+        (small.faces, "halfedge"),
+        (small.vertices, "halfedge"),
+    ):
+        for word in words.split():
+            getattr(handles[0], word)
 
 
 @hm.kernel

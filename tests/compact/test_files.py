@@ -49,7 +49,8 @@ def test_arrays_are_mapped_and_begin_with_a_cache_line(path):
     a = CompactTopology.load(path).__arrays__()
     for name in STORED:
         array = getattr(a, name)
-        assert not array.flags.owndata and not array.flags.writeable
+        assert not array.flags.owndata
+        assert not array.flags.writeable
         assert array.ctypes.data % 64 == 0
 
 
@@ -58,7 +59,8 @@ def test_other_arrays_travel_along(compact, tmp_path):
     files.write(tmp_path / "mesh.hmc", compact, {"points": points, "label": names, "none": names[:0]})
     _, others = files.read(tmp_path / "mesh.hmc")
     assert list(others) == ["points", "label", "none"]
-    assert np.array_equal(others["points"], points) and np.array_equal(others["label"], names)
+    assert np.array_equal(others["points"], points)
+    assert np.array_equal(others["label"], names)
 
 
 @pytest.mark.parametrize("array", [np.array(["text"]), np.zeros((2, 2, 2)), np.zeros(3, complex)])
@@ -116,7 +118,8 @@ def assert_sound(t):
     assert np.array_equal(navigation.twin_of(t, navigation.twin_of(t, h)), h)
     for rule, low, high in (("origin_of", 0, t.n_vertices), ("face_of", -1, t.n_faces), ("edge_of", 0, n // 2)):
         x = getattr(navigation, rule)(t, h)
-        assert x.min() >= low and x.max() < high
+        assert x.min() >= low
+        assert x.max() < high
 
 
 @pytest.mark.parametrize("name", STORED)

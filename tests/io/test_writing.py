@@ -10,9 +10,9 @@ import numpy as np
 import pytest
 
 import halfmesh as hm
-from halfmesh import io
+from halfmesh import _files, io
 from halfmesh.errors import FormatError, InvalidMeshError
-from halfmesh.io import formats, target
+from halfmesh.io import formats
 
 CUBE = hm.shapes.cube()
 POINTS = np.array([[0, 0, 0], [1, 0, 0.1], [1 / 3, 1e-7, -0.0], [2, 2, 1e22]])
@@ -152,7 +152,7 @@ def test_a_failing_replacement_leaves_no_temporary_file(tmp_path: Path, monkeypa
     def refuse(source: str, destination: str) -> None:
         raise PermissionError(13, "no")
 
-    monkeypatch.setattr(target.os, "replace", refuse)
+    monkeypatch.setattr(_files.os, "replace", refuse)
     with pytest.raises(PermissionError):
         hm.save(CUBE, tmp_path / "a.off")
     assert names(tmp_path) == []

@@ -15,6 +15,7 @@
     carrier                           what both are: a carrier that binds the rules anew
 """
 
+from halfmesh.compact import navigation as navigation  # binds the rules: a pickled compact mesh imports this alone
 from halfmesh.compact.triangles import TriangleTopology
 
 __all__ = ["TriangleTopology"]

@@ -10,9 +10,11 @@ from numpy.typing import NDArray
 from halfmesh._jit import bit_count, kernel
 from halfmesh.compact.parentheses import SAMPLING_BITS
 from halfmesh.compact.topology import Arrays
-from halfmesh.compact.words import DUAL, KIND, closes_of, falling, opens_of
+from halfmesh.compact.words import DUAL, KIND, TREE, closes_of, falling, opens_of
 
 __all__ = ["add_directory", "level_starts", "n_words", "sample_starts"]
+
+NEVER = 2**31 - 1  # a depth that no search looks for
 
 
 def n_words(n_symbols: int) -> int:
@@ -24,10 +26,11 @@ def level_starts(n_blocks: int) -> NDArray[np.int64]:
     """Where each level of the minima begins, and the last one ends."""
     starts, n = [0], -(-n_blocks // 16)
     while True:
-        starts.append(starts[-1] + n)
-        if n == 1:
+        groups = -(-n // 16)
+        starts.append(starts[-1] + 16 * groups)
+        if groups == 1:
             return np.array(starts, np.int64)
-        n = -(-n // 16)
+        n = groups
 
 
 def sample_starts(n_opens: tuple[int, int]) -> NDArray[np.int64]:
@@ -40,10 +43,10 @@ def add_directory(a: Arrays, n_symbols: int, n_opens: tuple[int, int]) -> None:
     """Fill in all that follows from the bits. Complexity: O(n)."""
     n_blocks = len(a.bits) // 8
     a.levels, a.sample_starts = level_starts(n_blocks), sample_starts(n_opens)
-    n_supers = int(a.levels[1])
-    a.records = np.empty(n_blocks, np.int64)
+    n_supers = -(-n_blocks // 16)
+    a.records = np.empty(16 * n_supers, np.int64)
     a.supers = np.empty(4 * n_supers, np.int32)
-    a.minima = np.empty(2 * int(a.levels[-1]), np.int32)
+    a.minima = np.full(2 * int(a.levels[-1]), NEVER, np.int32)
     a.samples = np.empty(int(a.sample_starts[-1]), np.int32)
     _count.at(n_symbols)(a.bits, a.records, a.supers, a.minima, int(a.levels[-1]))
     _raise_minima.at(n_supers)(a.minima, a.levels)
@@ -53,26 +56,32 @@ def add_directory(a: Arrays, n_symbols: int, n_opens: tuple[int, int]) -> None:
 @kernel
 def _count(bits: Any, records: Any, supers: Any, minima: Any, dual: int) -> None:
     """Records and superblocks, and the lowest level of the minima, of which those of the dual tree begin at `dual`."""
+    n_blocks = len(bits) // 8
     opens_tree, opens_dual, symbols = 0, 0, 0
-    for b in range(len(records)):
+    for b in range(n_blocks):
         s = b >> 4
+        depth_tree, depth_dual = 2 * opens_tree - symbols, 2 * opens_dual - (256 * b - symbols)
         if b & 15 == 0:
-            supers[4 * s], supers[4 * s + 1], supers[4 * s + 2], supers[4 * s + 3] = opens_tree, opens_dual, symbols, 0
-            minima[s], minima[dual + s] = 2**31 - 1, 2**31 - 1
-        record = (opens_tree - supers[4 * s]) | (opens_dual - supers[4 * s + 1]) << 12
-        record |= (symbols - supers[4 * s + 2]) << 24
-        depth = 2 * opens_tree - symbols
-        fall = _fall(bits, 8 * b, 0)
-        minima[s] = min(minima[s], depth - fall)
-        record |= fall << 36
-        depth = 2 * opens_dual - (256 * b - symbols)
-        fall = _fall(bits, 8 * b, DUAL)
-        minima[dual + s] = min(minima[dual + s], depth - fall)
-        records[b] = record | fall << 45
+            supers[4 * s], supers[4 * s + 1] = opens_tree, opens_dual
+            supers[4 * s + 2], supers[4 * s + 3] = depth_tree, depth_dual
+            before = symbols
+        least_tree = depth_tree - _fall(bits, 8 * b, TREE)
+        least_dual = depth_dual - _fall(bits, 8 * b, DUAL)
+        minima[s], minima[dual + s] = min(minima[s], least_tree), min(minima[dual + s], least_dual)
+        base, base_dual = supers[4 * s + 2] - 4096, supers[4 * s + 3] - 4096
+        record = (depth_tree - base) | (least_tree - base) << 13
+        record |= (depth_dual - base_dual) << 26 | (least_dual - base_dual) << 39
+        records[b] = record + ((symbols - before - 2048) << 52)
         for w in range(8 * b, 8 * b + 8):
-            opens_tree += bit_count(opens_of(bits[w], 0))
+            opens_tree += bit_count(opens_of(bits[w], TREE))
             opens_dual += bit_count(opens_of(bits[w], DUAL))
             symbols += bit_count(bits[w] & KIND)
+    s = (n_blocks - 1) >> 4
+    base, base_dual = supers[4 * s + 2] - 4096, supers[4 * s + 3] - 4096
+    for b in range(n_blocks, len(records)):  # nothing is found in these
+        depth_tree, depth_dual = 2 * opens_tree - symbols, 2 * opens_dual - (256 * n_blocks - symbols)
+        record = (depth_tree - base) | 8191 << 13 | (depth_dual - base_dual) << 26 | 8191 << 39
+        records[b] = record + ((symbols - before - 2048) << 52)
 
 
 @kernel
@@ -94,12 +103,10 @@ def _raise_minima(minima: Any, levels: Any) -> None:
     n_levels = len(levels) - 1
     for base in range(0, 2 * levels[n_levels], levels[n_levels]):
         for level in range(1, n_levels):
-            for i in range(levels[level], levels[level + 1]):
-                first = levels[level - 1] + 16 * (i - levels[level])
-                lowest = minima[base + first]
-                for k in range(first, min(first + 16, levels[level])):
-                    lowest = min(lowest, minima[base + k])
-                minima[base + i] = lowest
+            for first in range(levels[level - 1], levels[level], 16):
+                at = base + levels[level] + (first - levels[level - 1]) // 16
+                for k in range(base + first, base + first + 16):
+                    minima[at] = min(minima[at], minima[k])
 
 
 @kernel

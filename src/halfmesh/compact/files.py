@@ -13,8 +13,8 @@ bytes   what
         only), its first byte, and eight zeros
 ======  ====================================================================================================
 
-Each array begins at a multiple of 64 bytes, and zeros follow it up to one. Which arrays a compact mesh has says `topology`; others may stand in the
-same file, with names of their own.
+Each array begins at a multiple of 64 bytes, and zeros follow it up to one. Which arrays a compact mesh has says
+`topology`; others may stand in the same file, under names that begin with a dot.
 """
 
 from __future__ import annotations

@@ -1,27 +1,30 @@
 """Balanced parentheses of two kinds in one sequence: matching, counting, and finding the n-th.
 
-`depth` is how many parentheses of a kind are open. The partner of one is where the depth first (or last) is what it was.
-A search goes through the words of the block it begins in; then over the blocks of this superblock, by the least depth
-that each record tells; then over groups of 16 superblocks, of 16 groups and so on, up and down again, by `minima`.
+`depth` is how many parentheses of a kind are open. The partner of one is where the depth is first, or was last, what it
+is there. A search goes through the words of the block it begins in; then over the blocks of this superblock, by
+the least depth that each record tells; then over groups of 16 superblocks, of 16 groups and so on, up and down again,
+by `minima`.
 
-=============  ================  ====================================================================================
-column         one per           holds
-=============  ================  ====================================================================================
-``bits``       32 symbols        the symbols, see `words`
-``records``    256 (a block)     since the superblock's begin: opening ones of the tree, of the dual tree, and tree
-                                 symbols, 12 bits each; by how much the depths fall in it below its begin, 9 bits each
-``supers``     4096              opening ones of the tree, of the dual tree, tree symbols before it; none
-``minima``     4096, 4096 * 16,  the least depth in it, by levels, all of the tree and then all of the dual tree
-               4096 * 256 ...
-``samples``    4096 opening      the superblock of every 4096-th: of the tree, of the dual tree, of both together
-=============  ================  ====================================================================================
+=============  =============  ========================================================================================
+column         one per        holds
+=============  =============  ========================================================================================
+``bits``       32 symbols     the symbols, see `words`
+``records``    block: 256     relative to where the superblock begins, for the tree and for the dual tree: the depth
+                              where the block begins, and the least in it, each 13 bits and 4096 too large; in the
+                              highest 12 bits, 2048 too small, how many symbols are of the tree
+``supers``     superblock:    where it begins: opening parentheses before it, of the tree and of the dual tree; the
+               16 blocks      depths of both
+``minima``     superblock     the least depth in it; then of groups of 16, of 16 groups ...; each level filled up to
+                              a multiple of 16; all of the tree, then all of the dual tree
+``samples``    4096 opening   the superblock of every 4096-th: of the tree, of the dual tree, of both together
+=============  =============  ========================================================================================
 """
 
 from __future__ import annotations
 
 from typing import Any
 
-from halfmesh._jit import apart, bit_count, rule
+from halfmesh._jit import apart, bit_count, bit_length, rule
 from halfmesh.compact.words import (
     DUAL,
     KIND,
@@ -107,20 +110,17 @@ def _closing_in_block(t: Any, i: Any, depth: Any, flip: Any) -> Any:
 
 @rule
 def _closing_behind(t: Any, b: Any, depth: Any, kind: Any) -> Any:
-    """Where, behind block `b`, the depth falls by so much."""
+    """Where, behind block `b`, the depth falls by so much from what it is at its end."""
     apart()
-    n = len(t.records)
-    b += 1
-    goal = block_depth(t, b, kind) - depth
-    while b & 15 != 0 and b < n:
-        if _least_depth(t, b, kind) <= goal:
-            return _closing_in(t, b, goal, kind)
-        b += 1
-    s = _first_super(t, b >> 4, goal, kind)
-    for b in range(16 * s, n):
-        if _least_depth(t, b, kind) <= goal:
-            return _closing_in(t, b, goal, kind)
-    return 0
+    goal = block_depth(t, b + 1, kind) - depth
+    found = 0
+    if (b + 1) & 15 != 0:
+        found = _low_blocks(t, b >> 4, goal, kind) & -(2 << (b & 15))
+    s = b >> 4
+    if found == 0:
+        s = _first_super(t, s + 1, goal, kind)
+        found = _low_blocks(t, s, goal, kind)
+    return _closing_in(t, 16 * s + _lowest(found), goal, kind)
 
 
 @rule
@@ -133,23 +133,17 @@ def _first_super(t: Any, s: Any, goal: Any, kind: Any) -> Any:
     """The first superblock from `s` on in which the depth falls as low as `goal`."""
     n_levels = len(t.levels) - 1
     base = kind * t.levels[n_levels]
-    level, i = 0, s
-    while level < n_levels:
-        end = min((i | 15) + 1, t.levels[level + 1] - t.levels[level])
-        at = base + t.levels[level]
-        while i < end and t.minima[at + i] > goal:
-            i += 1
-        if i < end:
+    level, i, found = 0, s, 0
+    while level < n_levels and i < t.levels[level + 1] - t.levels[level]:
+        found = _low_minima(t, base + t.levels[level] + (i & -16), goal) & -(1 << (i & 15))
+        if found != 0:
             break
         level += 1
-        i = ((i - 1) >> 4) + 1
+        i = (i >> 4) + 1
+    i = (i & -16) + _lowest(found)
     while level > 0:
         level -= 1
-        i *= 16
-        at = base + t.levels[level]
-        end = min(i + 15, t.levels[level + 1] - t.levels[level] - 1)
-        while i < end and t.minima[at + i] > goal:
-            i += 1
+        i = 16 * i + _lowest(_low_minima(t, base + t.levels[level] + 16 * i, goal))
     return i
 
 
@@ -197,16 +191,12 @@ def _opening_before(t: Any, b: Any, depth: Any, kind: Any) -> Any:
     goal = block_depth(t, b, kind) - depth
     if goal < 0:
         return -1
-    while b & 15 != 0:
-        b -= 1
-        if _least_depth(t, b, kind) <= goal:
-            return _opening_in(t, b, goal, kind)
-    b = 16 * _last_super(t, (b >> 4) - 1, goal, kind) + 16
-    while b > 0:
-        b -= 1
-        if _least_depth(t, b, kind) <= goal:
-            return _opening_in(t, b, goal, kind)
-    return -1
+    s = b >> 4
+    found = _low_blocks(t, s, goal, kind) & ((1 << (b & 15)) - 1)
+    if found == 0:
+        s = _last_super(t, s - 1, goal, kind)
+        found = _low_blocks(t, s, goal, kind)
+    return _opening_in(t, 16 * s + _highest(found), goal, kind)
 
 
 @rule
@@ -219,24 +209,52 @@ def _last_super(t: Any, s: Any, goal: Any, kind: Any) -> Any:
     """The last superblock up to `s` in which the depth falls as low as `goal`."""
     n_levels = len(t.levels) - 1
     base = kind * t.levels[n_levels]
-    level, i = 0, s
+    level, i, found = 0, s, 0
     while level < n_levels and i >= 0:
-        end = i & -16
-        at = base + t.levels[level]
-        while i >= end and t.minima[at + i] > goal:
-            i -= 1
-        if i >= end:
+        found = _low_minima(t, base + t.levels[level] + (i & -16), goal) & ((2 << (i & 15)) - 1)
+        if found != 0:
             break
         level += 1
-        i = (end >> 4) - 1
+        i = (i >> 4) - 1
+    i = (i & -16) + _highest(found)
     while level > 0:
         level -= 1
-        at = base + t.levels[level]
-        end = 16 * i
-        i = min(16 * i + 15, t.levels[level + 1] - t.levels[level] - 1)
-        while i > end and t.minima[at + i] > goal:
-            i -= 1
+        i = 16 * i + _highest(_low_minima(t, base + t.levels[level] + 16 * i, goal))
     return i
+
+
+# -- sixteen at once ---------------------------------------------------------------------------------------------------
+
+
+@rule
+def _low_blocks(t: Any, s: Any, goal: Any, kind: Any) -> Any:
+    """The blocks of a superblock in which the depth falls as low as `goal`, as bits."""
+    limit = goal - t.supers[4 * s + 2 + kind] + 4096
+    found = 0
+    for k in range(16):
+        found |= (1 if (t.records[16 * s + k] >> (26 * kind + 13)) & 8191 <= limit else 0) << k
+    return found
+
+
+@rule
+def _low_minima(t: Any, first: Any, goal: Any) -> Any:
+    """Which of the sixteen minima from `first` on are as low as `goal`, as bits."""
+    found = 0
+    for k in range(16):
+        found |= (1 if t.minima[first + k] <= goal else 0) << k
+    return found
+
+
+@rule
+def _lowest(found: Any) -> Any:
+    """The place of the lowest 1, 0 if there is none."""
+    return max(bit_length(found & -found) - 1, 0)
+
+
+@rule
+def _highest(found: Any) -> Any:
+    """The place of the highest 1, 0 if there is none."""
+    return max(bit_length(found) - 1, 0)
 
 
 # -- counting ----------------------------------------------------------------------------------------------------------
@@ -245,23 +263,25 @@ def _last_super(t: Any, s: Any, goal: Any, kind: Any) -> Any:
 @rule
 def block_depth(t: Any, b: Any, kind: Any) -> Any:
     """How many parentheses of a kind are open where block `b` begins."""
-    record, s = t.records[b], 4 * (b >> 4)
-    opens = t.supers[s + kind] + ((record >> (12 * kind)) & 4095)
-    symbols = t.supers[s + 2] + ((record >> 24) & 4095)
-    return 2 * opens - (256 * b - symbols if kind else symbols)
+    return t.supers[4 * (b >> 4) + 2 + kind] + ((t.records[b] >> (26 * kind)) & 8191) - 4096
 
 
 @rule
-def _least_depth(t: Any, b: Any, kind: Any) -> Any:
-    """How few parentheses of a kind are open somewhere in block `b`, begin and end included."""
-    return block_depth(t, b, kind) - ((t.records[b] >> (36 + 9 * kind)) & 511)
+def opens_of_record(record: Any, b: Any, kind: Any) -> Any:
+    """How many opening parentheses of a kind there are before block `b` in its superblock. Kind 2 is both."""
+    depth, depth_dual, tree = (record & 8191) - 4096, ((record >> 26) & 8191) - 4096, (record >> 52) + 2048
+    if kind == 0:
+        return (depth + tree) >> 1
+    if kind == 1:
+        return (depth_dual + 256 * (b & 15) - tree) >> 1
+    return (depth + depth_dual + 256 * (b & 15)) >> 1
 
 
 @rule
 def opens_before(t: Any, i: Any, kind: Any) -> Any:
     """How many opening parentheses of a kind there are before symbol `i`."""
     b, w = i >> 8, i >> 5
-    n = t.supers[4 * (b >> 4) + kind] + ((t.records[b] >> (12 * kind)) & 4095)
+    n = t.supers[4 * (b >> 4) + kind] + opens_of_record(t.records[b], b, kind)
     flip = kind * DUAL
     for k in range(w & -8, w):
         n += bit_count(opens_of(t.bits[k], flip))
@@ -294,10 +314,12 @@ def select(t: Any, n: Any, kind: Any) -> Any:
     """The n-th opening parenthesis of a kind, counted from 0; there are more than `n`. Kind 2 is both."""
     s = _super_of(t, n, kind)
     n -= _opens_before_super(t, s, kind)
-    b, end = 16 * s, min(16 * s + 16, len(t.records)) - 1
-    while b < end and _opens_of_record(t.records[b + 1], kind) <= n:
-        b += 1
-    n -= _opens_of_record(t.records[b], kind)
+    b, half = 16 * s, 8
+    while half > 0:
+        if opens_of_record(t.records[b + half], b + half, kind) <= n:
+            b += half
+        half >>= 1
+    n -= opens_of_record(t.records[b], b, kind)
     w = 8 * b
     while True:
         opens = _opens_of_kind(t.bits[w], kind)
@@ -327,13 +349,6 @@ def _opens_before_super(t: Any, s: Any, kind: Any) -> Any:
     if kind == 2:
         return t.supers[4 * s] + t.supers[4 * s + 1]
     return t.supers[4 * s + kind]
-
-
-@rule
-def _opens_of_record(record: Any, kind: Any) -> Any:
-    if kind == 2:
-        return (record & 4095) + ((record >> 12) & 4095)
-    return (record >> (12 * kind)) & 4095
 
 
 @rule

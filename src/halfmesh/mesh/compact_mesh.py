@@ -71,11 +71,11 @@ class CompactMesh(ReadOnlyMesh):
     >>> small = hm.CompactMesh(mesh)
     >>> small
     <CompactMesh: 10242 vertices, 30720 edges, 20480 faces, closed>
-    >>> mesh.topology.nbytes // small.topology_nbytes
-    58
+    >>> mesh.topology.nbytes // small.topology_nbytes > 50
+    True
     >>> small.vertices[0].degree, small.faces[5].degree
     (5, 3)
-    >>> hm.geometry.area(small).round(6) == hm.geometry.area(mesh).round(6)
+    >>> round(hm.geometry.area(small), 6) == round(hm.geometry.area(mesh), 6)
     True
     """
 
