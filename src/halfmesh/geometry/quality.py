@@ -98,7 +98,8 @@ def polygon_quality(mesh: Mesh) -> PolygonQuality:
     References
     ----------
     M. Attene, S. Biasotti, S. Bertoluzza, D. Cabiddu, M. Livesu, G. Patanè, M. Pennacchio, D. Prada, M. Spagnuolo,
-    "Benchmark of polygon quality metrics for polytopal element methods", arXiv:1906.01627 (2019).
+    "Benchmark of polygon quality metrics for polytopal element methods", arXiv:1906.01627 (2019), and in "The Virtual
+    Element Method and its Applications", SEMA SIMAI Springer Series 31 (2022).
 
     Examples
     --------
