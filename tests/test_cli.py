@@ -232,7 +232,6 @@ def test_polylla_draws_the_polygons(triangles: Path, tmp_path: Path) -> None:
             ["out.off", "--plot", "out.bmp3"],
             "out.bmp3: unknown suffix '.bmp3'; pictures are written as",
         ),
-        ("triangles.off", ["out.off", "--plot", "no/out.png"], "no/out.png: No such file or directory"),
     ],
 )
 @pytest.mark.usefixtures("cube", "book", "triangles")
@@ -246,6 +245,19 @@ def test_polylla_refuses_in_one_line(
     assert result.stderr.count("\n") == 1
     assert result.stderr.startswith("halfmesh: ")
     assert words in result.stderr
+
+
+@pytest.mark.parametrize("obstacle", ["no such folder", "too many faces"])
+def test_polylla_that_cannot_draw_has_written_and_reported(
+    triangles: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, obstacle: str
+) -> None:
+    if obstacle == "too many faces":
+        monkeypatch.setattr("halfmesh.viewer.plotting.MOST_FACES", 4)
+    result = run("polylla", triangles, tmp_path / "out.off", "--plot", tmp_path / "no" / "out.png")
+    assert result.exit_code == 1
+    assert "5 polygons" in result.stdout
+    assert result.stderr.count("\n") == 1
+    assert (tmp_path / "out.off").exists()
 
 
 def test_polylla_says_how_to_get_pictures(triangles: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -134,7 +134,7 @@ def polylla(source: Path, target: Path, plot: Path | None, with_report: bool, as
     Triangles that share their longest edge, or lead to the same one, become one polygon. No point is added or moved.
     Any format is read and written, by the suffixes.
     """
-    from halfmesh.cli.joining import join, show_joined
+    from halfmesh.cli.joining import draw_joined, join, show_joined
     from halfmesh.io.formats import format_of
     from halfmesh.viewer.polygons import check_picture
 
@@ -142,12 +142,14 @@ def polylla(source: Path, target: Path, plot: Path | None, with_report: bool, as
     try:
         if plot is not None:
             check_picture(plot)
-        made = join(source, target, plot=plot, quality=with_report or as_json)
+        made = join(source, target, quality=with_report or as_json)
+        show_joined(made, as_json=as_json)
+        if plot is not None:
+            draw_joined(made, plot)
     except ImportError as error:
         raise Refusal(str(error)) from None
     except (InvalidMeshError, PreconditionError) as error:
         raise Refusal(complaint_about(source, error)) from None
-    show_joined(made, plot=plot, as_json=as_json)
 
 
 @app.command()

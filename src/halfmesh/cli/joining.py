@@ -18,7 +18,7 @@ from halfmesh.viewer import save_polygons_plot
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-__all__ = ["Joined", "join", "show_joined"]
+__all__ = ["Joined", "draw_joined", "join", "show_joined"]
 
 MOST_BELOW = 5_000  # triangles drawn below the polygons; more are only a gray veil
 
@@ -30,6 +30,7 @@ class Joined:
     Attributes
     ----------
     source, target : Path
+    triangles, polygons : Mesh
     report : PolyllaReport
     quality : QualitySummary or None
         Of the polygons, if it was asked for.
@@ -37,6 +38,8 @@ class Joined:
 
     source: Path
     target: Path
+    triangles: hm.Mesh
+    polygons: hm.Mesh
     report: hm.PolyllaReport
     quality: QualitySummary | None
 
@@ -46,28 +49,24 @@ class Joined:
         return made | ({"quality": self.quality.as_dict()} if self.quality else {})
 
 
-def join(source: Path, target: Path, *, plot: Path | None, quality: bool) -> Joined:
+def join(source: Path, target: Path, *, quality: bool) -> Joined:
     """Read triangles, join them, write the polygons; with a bar where somebody is watching."""
     out = console()
-    n_steps = 3 + quality + (plot is not None)
     with progress_bar(out) as bar:
-        task = bar.add_task("reading", total=n_steps)
+        task = bar.add_task("reading", total=3 + quality)
 
         def done(step: float, following: str) -> None:
             bar.update(task, completed=step, description=following)
 
-        mesh = hm.load(source)
+        triangles = hm.load(source)
         done(1, "joining triangles")
-        polygons, report = hm.polylla(mesh, report=True, progress=_within(done))
+        polygons, report = hm.polylla(triangles, report=True, progress=_within(done))
         done(2, "writing")
         hm.save(polygons, target)
         done(3, "measuring")
         summary = polygon_quality(polygons).summary() if quality else None
-        done(3 + quality, "drawing")
-        if plot is not None:
-            save_polygons_plot(polygons, plot, triangulation=mesh if mesh.n_faces <= MOST_BELOW else None)
-        done(n_steps, "done")
-    return Joined(source, target, report, summary)
+        done(3 + quality, "done")
+    return Joined(source, target, triangles, polygons, report, summary)
 
 
 def _within(done: Callable[[float, str], None]) -> Callable[[str, float], None]:
@@ -75,7 +74,7 @@ def _within(done: Callable[[float, str], None]) -> Callable[[str, float], None]:
     return lambda phase, fraction: done(1 + fraction, f"joining triangles: {phase} done")
 
 
-def show_joined(made: Joined, *, plot: Path | None, as_json: bool) -> None:
+def show_joined(made: Joined, *, as_json: bool) -> None:
     """Print it: a line, and the tables if the quality was measured."""
     if as_json:
         click.echo(json.dumps(made.as_dict(), indent=2))
@@ -83,11 +82,16 @@ def show_joined(made: Joined, *, plot: Path | None, as_json: bool) -> None:
     report = made.report
     name = click.format_filename(made.target)
     click.echo(f"{name}: {report.n_polygons:,} polygons from {report.n_triangles:,} triangles")
-    if plot is not None:
-        click.echo(f"{click.format_filename(plot)}: their picture")
     if made.quality is not None:
         for title, table in (("report", str(report)), ("quality", str(made.quality))):
             _show_table(title, table)
+
+
+def draw_joined(made: Joined, plot: Path) -> None:
+    """Write the picture, with the triangles below if they are not too many."""
+    below = made.triangles if made.triangles.n_faces <= MOST_BELOW else None
+    with console().status(Text("drawing ...", style="dim"), spinner="line", refresh_per_second=4):
+        save_polygons_plot(made.polygons, plot, triangulation=below)
 
 
 def _show_table(title: str, table: str) -> None:
