@@ -14,6 +14,7 @@ from click.testing import CliRunner, Result
 
 import halfmesh as hm
 from halfmesh.cli.app import app
+from halfmesh.io.formats import FORMATS
 
 MAIN = "from halfmesh.cli import main; main()"
 BOOK = "OFF\n5 3 0\n0 0 0\n0 0 1\n1 0 0\n0 1 0\n-1 0 0\n3 0 1 2\n3 0 1 3\n3 0 1 4\n"
@@ -173,6 +174,112 @@ def test_convert_that_the_system_refuses_is_one_line_on_stderr(cube: Path, tmp_p
     assert "Errno" not in result.stderr
 
 
+# -------------------------------------------------------------------------------------------------------------- polylla
+
+
+@pytest.fixture
+def triangles(tmp_path: Path) -> Path:
+    path = tmp_path / "triangles.off"
+    hm.save(hm.shapes.seed_triangulation(), path)
+    return path
+
+
+@pytest.mark.parametrize("suffix", [suffix for suffix in (".off", ".obj", ".ale") if suffix in FORMATS])
+def test_polylla_writes_every_format_that_holds_polygons(triangles: Path, tmp_path: Path, suffix: str) -> None:
+    result = run("polylla", triangles, tmp_path / f"polygons{suffix}")
+    assert result.exit_code == 0, result.output
+    assert result.stdout == f"{tmp_path / f'polygons{suffix}'}: 5 polygons from 12 triangles\n"
+    assert (tmp_path / f"polygons{suffix}").stat().st_size > 0
+
+
+def test_polylla_writes_what_the_function_returns(triangles: Path, tmp_path: Path) -> None:
+    run("polylla", triangles, tmp_path / "polygons.off")
+    expected, found = hm.polylla(hm.load(triangles)), hm.load(tmp_path / "polygons.off")
+    assert [a.tolist() for a in found.face_vertices()] == [a.tolist() for a in expected.face_vertices()]
+    assert found.points.tolist() == expected.points.tolist()
+
+
+def test_polylla_reports_counts_times_and_quality(triangles: Path, tmp_path: Path) -> None:
+    said = run("polylla", triangles, tmp_path / "polygons.off", "--report").stdout
+    lines = [" ".join(line.split()) for line in said.splitlines()]
+    for line in ("triangles 12", "polygons 5", "convex 4 (80.0%)", "star-shaped 5 (100.0%)", "sides 3 4.40 6"):
+        assert line in lines
+    assert any(line.startswith("total ") and line.endswith(" ms") for line in lines)
+
+
+def test_polylla_reports_as_json(triangles: Path, tmp_path: Path) -> None:
+    said = json.loads(run("polylla", triangles, tmp_path / "polygons.off", "--json").stdout)
+    assert (said["file"], said["out"]) == (str(triangles), str(tmp_path / "polygons.off"))
+    assert (said["report"]["n_triangles"], said["quality"]["n_polygons"]) == (12, 5)
+
+
+def test_polylla_draws_the_polygons(triangles: Path, tmp_path: Path) -> None:
+    result = run("polylla", triangles, tmp_path / "polygons.off", "--plot", tmp_path / "polygons.png")
+    assert result.exit_code == 0, result.output
+    assert (tmp_path / "polygons.png").read_bytes().startswith(b"\x89PNG")
+
+
+@pytest.mark.parametrize(
+    ("source", "rest", "words"),
+    [
+        ("cube.off", ["out.off"], "cube.off: face 0 is not a triangle"),
+        ("book.off", ["out.off"], "book.off: 1 edge has more than two faces"),
+        ("missing.off", ["out.off"], "missing.off: No such file or directory"),
+        ("triangles.off", ["out.xyz"], "out.xyz: unknown suffix '.xyz'"),
+        ("triangles.off", ["no/folder.off"], "No such file or directory"),
+        (
+            "triangles.off",
+            ["out.off", "--plot", "out.bmp3"],
+            "out.bmp3: unknown suffix '.bmp3'; pictures are written as",
+        ),
+    ],
+)
+@pytest.mark.usefixtures("cube", "book", "triangles")
+def test_polylla_refuses_in_one_line(
+    source: str, rest: list[str], words: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    result = run("polylla", source, *rest)
+    assert result.exit_code == 1
+    assert result.stdout == ""
+    assert result.stderr.count("\n") == 1
+    assert result.stderr.startswith("halfmesh: ")
+    assert words in result.stderr
+
+
+@pytest.mark.parametrize("obstacle", ["no such folder", "too many faces"])
+def test_polylla_that_cannot_draw_has_written_and_reported(
+    triangles: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, obstacle: str
+) -> None:
+    if obstacle == "too many faces":
+        monkeypatch.setattr("halfmesh.viewer.plotting.MOST_FACES", 4)
+    result = run("polylla", triangles, tmp_path / "out.off", "--plot", tmp_path / "no" / "out.png")
+    assert result.exit_code == 1
+    assert "5 polygons" in result.stdout
+    assert result.stderr.count("\n") == 1
+    assert (tmp_path / "out.off").exists()
+
+
+def test_polylla_says_how_to_get_pictures(triangles: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "matplotlib.figure", None)
+    result = run("polylla", triangles, tmp_path / "out.off", "--plot", tmp_path / "out.png")
+    assert result.exit_code == 1
+    assert result.stderr == "halfmesh: pictures need matplotlib: pip install halfmesh[plot]\n"
+    assert not (tmp_path / "out.off").exists()
+
+
+def test_polylla_shows_a_bar_where_somebody_is_watching(
+    triangles: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    from rich.console import Console
+
+    watched = Console(force_terminal=True, width=80)
+    monkeypatch.setattr("halfmesh.cli.joining.console", lambda: watched)
+    with watched.capture() as shown:
+        run("polylla", triangles, tmp_path / "out.off")
+    assert "reading" in shown.get()
+
+
 # --------------------------------------------------------------------------------------------------------------- warmup
 
 CENSUS = """
@@ -234,7 +341,7 @@ def test_version_is_that_of_the_package() -> None:
 
 def test_help_names_every_command() -> None:
     said = run("--help").stdout
-    assert all(f"  {name} " in said for name in ("info", "check", "convert", "warmup", "demo"))
+    assert all(f"  {name} " in said for name in ("info", "check", "convert", "polylla", "warmup", "demo"))
 
 
 @pytest.mark.parametrize("arguments", [["info"], ["convert", "one.off"], ["no-such-command"], ["info", "--no-such"]])

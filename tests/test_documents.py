@@ -74,6 +74,16 @@ def test_picture_is_what_the_viewer_draws_today() -> None:
     assert kept == drawn, "write docs/images/structure.svg anew with halfmesh.viewer.save_structure_diagram"
 
 
+def test_every_picture_of_a_page_is_there_and_small() -> None:
+    pictures = [
+        page.parent / name
+        for page in PAGES
+        for name in re.findall(r"!\[[^]]+\]\(([^)]+\.(?:png|svg))\)", page.read_text(encoding="utf-8"))
+    ]
+    assert len(pictures) >= 6
+    assert [picture for picture in pictures if not 0 < picture.stat().st_size < 200_000] == []
+
+
 def test_page_of_the_command_line_names_every_command_and_option() -> None:
     from halfmesh.cli.app import app
 

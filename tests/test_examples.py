@@ -1,4 +1,4 @@
-"""Every example runs to its closing asserts, compiled and interpreted."""
+"""Every example runs to its asserts, compiled and interpreted."""
 
 from __future__ import annotations
 
@@ -17,5 +17,10 @@ def test_example_runs(
 ) -> None:
     if gear == "interpreted":
         monkeypatch.setattr("halfmesh._jit.gears.interpret_only", True)
-    runpy.run_path(str(path), run_name="__main__")
+    try:
+        runpy.run_path(str(path), run_name="__main__")
+    except ImportError as error:
+        if "pip install halfmesh[" not in str(error):
+            raise
+        pytest.skip(str(error))
     assert capsys.readouterr().out, "an example tells what it found"

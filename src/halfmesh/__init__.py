@@ -83,8 +83,8 @@ __version__ = "0.1.0"
 _ROOMS = ("algorithms", "geometry", "io", "shapes", "testing", "viewer")
 _LATER = dict.fromkeys(_ROOMS, "") | {
     "CompactMesh": "mesh.compact_mesh",
-    "TriangleMesh": "mesh.readonly",
     "PolyllaReport": "algorithms",
+    "TriangleMesh": "mesh.readonly",
     "delaunay": "shapes",
     "load": "io",
     "polylla": "algorithms",

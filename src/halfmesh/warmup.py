@@ -152,7 +152,7 @@ def _cut_holes() -> None:
 def _measure(mesh: hm.Mesh) -> None:
     for name in hm.geometry.__all__:
         measure = getattr(hm.geometry, name)
-        if callable(measure):
+        if callable(measure) and not isinstance(measure, type):
             measure(mesh)
     hm.geometry.vertex_normals(mesh, weights="area")
 

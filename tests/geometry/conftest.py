@@ -8,11 +8,11 @@ import pytest
 import halfmesh as hm
 
 ZOO = hm.testing.zoo()
-MEASURES = {
-    name: getattr(hm.geometry, name)
-    for name in hm.geometry.__all__
-    if name not in {"kernels", "volume", "centroid", "bounding_box"}
-} | {"vertex_normals by area": lambda mesh: hm.geometry.vertex_normals(mesh, weights="area")}
+OTHERS = {"PolygonQuality", "QualitySummary", "kernels", "volume", "centroid", "bounding_box", "polygon_quality"}
+MEASURES = {name: getattr(hm.geometry, name) for name in hm.geometry.__all__ if name not in OTHERS} | {
+    "vertex_normals by area": lambda mesh: hm.geometry.vertex_normals(mesh, weights="area"),
+    "polygon_quality": lambda mesh: np.stack(list(hm.geometry.polygon_quality(mesh).as_dict().values()), axis=1),
+}
 
 
 def randomly_placed(mesh, seed=0):

@@ -124,6 +124,8 @@ def test_rigid_motion_turns_vectors_moves_points_and_leaves_numbers(axis, angle,
     moved.points = mesh.points @ rotation + shift
     for numbers in (g.edge_lengths, g.face_areas, g.corner_angles, g.area, g.volume):
         assert np.allclose(numbers(moved), numbers(mesh), atol=1e-9)
+    quality, same = (g.polygon_quality(m).as_dict().values() for m in (moved, mesh))
+    assert np.allclose(list(quality), list(same), atol=1e-9)
     for vectors in (g.edge_vectors, g.face_vectors, g.face_normals, g.vertex_normals):
         assert np.allclose(vectors(moved), vectors(mesh) @ rotation, atol=1e-9)
     for centers in (g.face_barycenters, g.face_centroids):

@@ -46,3 +46,33 @@ def test_mesh_without_faces_and_wrong_values_are_refused():
         hm.viewer.plot(hm.Mesh([], n_vertices=3))
     with pytest.raises(hm.PreconditionError, match="one for each face"):
         hm.viewer.plot(hm.shapes.cube(), values=[1.0])
+
+
+def test_polygons_are_colored_by_their_sides_above_the_triangles():
+    triangles = hm.shapes.seed_triangulation()
+    ax = hm.viewer.plot_polygons(hm.polylla(triangles), triangulation=triangles)
+    faces, below, outlines = ax.collections
+    assert len(np.unique(faces.get_facecolor(), axis=0)) == 4
+    assert (len(below.get_segments()), len(outlines.get_segments())) == (triangles.n_edges, 15)
+    assert [text.get_text() for text in ax.get_legend().texts] == ["3  (1)", "4  (2)", "5  (1)", "6  (1)"]
+
+
+def test_many_sides_share_a_color_and_two_have_the_first():
+    mesh = hm.Mesh([range(11), range(11, 28)], np.random.default_rng(0).random((28, 2)))
+    ax = hm.viewer.plot_polygons(mesh)
+    assert [text.get_text() for text in ax.get_legend().texts] == ["9 to 11  (1)", "16 or more  (1)"]
+    loop = hm.Mesh([[0, 1, 2], [2, 1, 0]], np.eye(3))
+    assert not hm.viewer.plot_polygons(loop, legend=False).get_legend()
+
+
+def test_polygons_in_space_and_every_kind_of_picture(tmp_path):
+    for suffix in (".png", ".svg", ".PDF"):
+        hm.viewer.save_polygons_plot(hm.shapes.dodecahedron(), tmp_path / f"it{suffix}")
+        assert (tmp_path / f"it{suffix}").stat().st_size > 1000
+    with pytest.raises(hm.FormatError, match="no suffix says"):
+        hm.viewer.save_polygons_plot(hm.shapes.dodecahedron(), tmp_path / "it")
+
+
+def test_vertices_of_no_face_make_no_room():
+    mesh = hm.Mesh([[0, 1, 2]], [[0, 0], [1, 0], [0, 1], [50, 50]])
+    assert hm.viewer.plot(mesh).get_xlim()[1] < 1.1

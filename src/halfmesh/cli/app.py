@@ -8,8 +8,8 @@ from typing import Any
 
 import click
 
-from halfmesh.cli.words import complain, reason_of
-from halfmesh.errors import HalfmeshError
+from halfmesh.cli.words import complain, complaint_about, reason_of
+from halfmesh.errors import HalfmeshError, InvalidMeshError, PreconditionError
 
 __all__ = ["app"]
 
@@ -120,6 +120,36 @@ def convert(source: Path, target: Path) -> None:
         vertex=data.vertex, halfedge=data.halfedge, edge=data.edge, face=data.face, meta=data.meta,
     )  # fmt: skip
     click.echo(f"{click.format_filename(target)}: {data.n_vertices:,} vertices, {data.n_faces:,} faces")
+
+
+@app.command()
+@click.argument("source", metavar="IN", type=click.Path(path_type=Path))
+@click.argument("target", metavar="OUT", type=click.Path(path_type=Path))
+@click.option("--plot", metavar="PICTURE", type=click.Path(path_type=Path), help="Draw the polygons: png, svg, pdf ...")
+@click.option("--report", "with_report", is_flag=True, help="Counts, times, and the quality of the polygons.")
+@click.option("--json", "as_json", is_flag=True, help="The report as one object, for machines.")
+def polylla(source: Path, target: Path, plot: Path | None, with_report: bool, as_json: bool) -> None:
+    """Read the triangles of IN, join them into simple polygons, and write those to OUT.
+
+    Triangles that share their longest edge, or lead to the same one, become one polygon. No point is added or moved.
+    Any format is read and written, by the suffixes.
+    """
+    from halfmesh.cli.joining import draw_joined, join, show_joined
+    from halfmesh.io.formats import format_of
+    from halfmesh.viewer.polygons import check_picture
+
+    format_of(target)  # an unknown suffix is refused before anything is read
+    try:
+        if plot is not None:
+            check_picture(plot)
+        made = join(source, target, quality=with_report or as_json)
+        show_joined(made, as_json=as_json)
+        if plot is not None:
+            draw_joined(made, plot)
+    except ImportError as error:
+        raise Refusal(str(error)) from None
+    except (InvalidMeshError, PreconditionError) as error:
+        raise Refusal(complaint_about(source, error)) from None
 
 
 @app.command()

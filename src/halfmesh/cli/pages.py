@@ -16,9 +16,11 @@ from rich.text import Text
 from halfmesh.cli.words import where_kept
 
 if TYPE_CHECKING:
+    from rich.progress import Progress, ProgressColumn
+
     from halfmesh.cli.report import Report
 
-__all__ = ["console", "print_table", "show_json", "show_report", "show_warmup"]
+__all__ = ["console", "print_table", "progress_bar", "show_json", "show_report", "show_warmup"]
 
 
 def console() -> Console:
@@ -75,17 +77,24 @@ def show_json(reports: list[dict[str, Any]]) -> None:
     click.echo(json.dumps(reports, indent=2))
 
 
+def progress_bar(out: Console, *columns: ProgressColumn) -> Progress:
+    """A bar, what else it shall show, and what is being done; gone when all is done, and silent without a terminal."""
+    from rich.progress import BarColumn, Progress, TextColumn
+
+    shown = (BarColumn(bar_width=30), *columns, TextColumn("{task.description}"))
+    return Progress(*shown, console=out, transient=True, disable=not out.is_terminal)
+
+
 def show_warmup() -> None:
     """Compile everything, with a bar, and say where it is kept."""
-    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn
+    from rich.progress import MofNCompleteColumn
 
     from halfmesh.warmup import Helper, n_compiled_here, n_from_cache, warm_up
 
     out = console()
     started = time.perf_counter()
     helper = Helper()
-    columns = (BarColumn(bar_width=30), MofNCompleteColumn(), TextColumn("{task.description}"))
-    with Progress(*columns, console=out, transient=True, disable=not out.is_terminal) as progress:
+    with progress_bar(out, MofNCompleteColumn()) as progress:
         task = progress.add_task("", total=None)
         for name, i, n in warm_up():
             progress.update(task, completed=i, total=n, description=name)

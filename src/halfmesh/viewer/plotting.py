@@ -52,17 +52,31 @@ def plot(mesh: Mesh, *, values: ArrayLike | None = None, ax: Any = None, edge_wi
     >>> mesh = hm.shapes.icosphere(2)
     >>> ax = hm.viewer.plot(mesh, values=hm.geometry.face_areas(mesh))  # doctest: +SKIP
     """
-    polygons = _polygons(mesh)
-    flat = bool(np.ptp(mesh.points[:, 2]) == 0.0)
+    checked = _values(mesh, values)
+    style = {} if checked is not None else {"facecolors": "#9ecae1"}
+    axes = drawn(mesh, ax, linewidths=edge_width, edgecolors="#1b2733" if edge_width else "none", **style)
+    if checked is not None:
+        axes.collections[-1].set_array(checked)
+    return axes
+
+
+def drawn(mesh: Mesh, ax: Any, **style: Any) -> Any:
+    """Axes with the faces in them as the last collection, in a style of matplotlib's; the faces fill the axes."""
+    polygons, flat = _polygons(mesh), is_flat(mesh)
     axes = _axes(flat) if ax is None else ax
-    axes.add_collection(_collection(polygons, _values(mesh, values), flat, edge_width))
-    low, high = mesh.points.min(axis=0), mesh.points.max(axis=0)
-    names = "xy" if flat else "xyz"
-    for i, name in enumerate(names):
+    axes.add_collection(_collection(polygons, flat, style))
+    used = np.concatenate(polygons)
+    low, high = used.min(axis=0), used.max(axis=0)
+    for i, name in enumerate("xy" if flat else "xyz"):
         margin = 0.02 * (high[i] - low[i]) or 1.0
         getattr(axes, f"set_{name}lim")(low[i] - margin, high[i] + margin)
     axes.set_aspect("equal")
     return axes
+
+
+def is_flat(mesh: Mesh) -> bool:
+    """Whether the mesh lies in a plane of constant z, and is drawn in the plane."""
+    return bool(np.ptp(mesh.points[:, 2]) == 0.0)
 
 
 def _polygons(mesh: Mesh) -> list[Any]:
@@ -88,18 +102,11 @@ def _axes(flat: bool) -> Any:
     return plt.figure().add_subplot(**({} if flat else {"projection": "3d"}))
 
 
-def _collection(polygons: list[Any], values: Any, flat: bool, edge_width: float) -> Any:
-    style: dict[str, Any] = {"linewidths": edge_width, "edgecolors": "#1b2733" if edge_width else "none"}
-    if values is None:
-        style["facecolors"] = "#9ecae1"
+def _collection(polygons: list[Any], flat: bool, style: dict[str, Any]) -> Any:
     if flat:
         from matplotlib.collections import PolyCollection
 
-        made = PolyCollection([polygon[:, :2] for polygon in polygons], **style)
-    else:
-        from mpl_toolkits.mplot3d.art3d import Poly3DCollection
+        return PolyCollection([polygon[:, :2] for polygon in polygons], **style)
+    from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 
-        made = Poly3DCollection(polygons, **style)
-    if values is not None:
-        made.set_array(values)
-    return made
+    return Poly3DCollection(polygons, **style)
