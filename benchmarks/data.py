@@ -2,13 +2,17 @@
 
 Names: `sphere-6` and `sphere-6-shuffled` (a bumpy noisy icosphere of level 6, 7 or 8: 81,920, 327,680 or 1,310,720
 triangles), the adversarial `fan-first-N fan-last-N bipyramid-N book-N`, the polygons `quads-N mixed-N polygon-N`, the
-triangles `grid-N` row by row, and `file:NAME` for a file of the corpus beside the repository.
+triangles `grid-N` row by row, the Delaunay triangles `delaunay-N` of N random points as Qhull lists them, and
+`delaunay-N-coherent` with points and triangles along a curve that fills the plane, `file:NAME` for a file of the corpus
+beside the repository.
 """
 
 from __future__ import annotations
 
+import subprocess
 from collections.abc import Callable
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -56,6 +60,8 @@ def make(name: str) -> Surface:
     stem, _, rest = name.rpartition("-")
     if rest == "shuffled":
         return shuffled(load(stem))
+    if rest == "coherent":
+        return coherent(load(stem))
     return MAKERS[stem](int(rest))
 
 
@@ -108,6 +114,58 @@ def shuffled(surface: Surface) -> Surface:
     points = np.empty_like(surface.points)
     points[new_id] = surface.points
     return Surface(random.permutation(new_id[surface.faces]), points)
+
+
+# ---- random Delaunay triangles ---------------------------------------------------------------------------------------
+
+
+QHULL = """
+import sys, numpy as np, scipy.spatial
+points = np.load(sys.argv[1])
+faces = scipy.spatial.Delaunay(points).simplices.astype(np.int32)
+u, v = (points[faces[:, k]] - points[faces[:, 0]] for k in (1, 2))
+clockwise = u[:, 0] * v[:, 1] < u[:, 1] * v[:, 0]
+faces[clockwise] = faces[clockwise][:, [0, 2, 1]]
+np.save(sys.argv[1], faces)
+"""
+
+
+def delaunay(n: int) -> Surface:
+    """Of random points in a square, by the SciPy of the libraries that are compared."""
+    from benchmarks.environment import PYTHON
+
+    points = random_points(n)
+    with TemporaryDirectory() as folder:
+        path = Path(folder) / "points.npy"
+        np.save(path, points[:, :2])
+        if subprocess.run([str(PYTHON), "-c", QHULL, str(path)], check=False).returncode:
+            raise SystemExit(
+                "random Delaunay triangles need SciPy: have it among the libraries, --peers halfmesh,scipy"
+            )
+        return Surface(np.load(path), points)
+
+
+def random_points(n: int) -> Array:
+    return np.c_[np.random.default_rng(SEED).random((n, 2)), np.zeros(n)]
+
+
+def coherent(surface: Surface) -> Surface:
+    """The same mesh with its vertices, and its faces by their middles, along Morton's curve."""
+    assert not isinstance(surface.faces, tuple)
+    order = np.argsort(morton(surface.points), kind="stable")
+    new_id = np.empty(len(order), np.int32)
+    new_id[order] = np.arange(len(order), dtype=np.int32)
+    points, faces = surface.points[order], new_id[surface.faces]
+    return Surface(faces[np.argsort(morton(points[faces].mean(axis=1)), kind="stable")], points)
+
+
+def morton(points: Array) -> Array:
+    """Where points in the unit square are on the curve: the bits of x and y by turns."""
+    bits = (points[:, :2] * 65535).astype(np.uint64)
+    for shift, mask in ((8, 0x00FF00FF), (4, 0x0F0F0F0F), (2, 0x33333333), (1, 0x55555555)):
+        bits = (bits | (bits << np.uint64(shift))) & np.uint64(mask)
+    places: Array = bits[:, 0] | (bits[:, 1] << np.uint64(1))
+    return places
 
 
 # ---- adversarial meshes and polygons ---------------------------------------------------------------------------------
@@ -179,7 +237,7 @@ def polygon(n: int) -> Surface:
 
 MAKERS: dict[str, Callable[[int], Surface]] = {
     "sphere": sphere, "fan-first": fan_first, "fan-last": fan_last, "bipyramid": bipyramid, "book": book,
-    "quads": quads, "mixed": mixed, "grid": grid, "polygon": polygon,
+    "quads": quads, "mixed": mixed, "grid": grid, "polygon": polygon, "delaunay": delaunay,
 }  # fmt: skip
 
 

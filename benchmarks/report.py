@@ -13,6 +13,7 @@ from benchmarks.data import ROOT
 from benchmarks.figures import OURS, YARDSTICKS, Figures, Record, fastest, ratio, seconds_per_item
 from benchmarks.growing import growth
 from benchmarks.operators import QUOTED, QUOTED_TRIANGLES, SPLIT, operations
+from benchmarks.polylla import LARGE, QUOTED_TIME, case_of
 from benchmarks.runner import results_path
 from benchmarks.task import Task, size
 from benchmarks.tasks import PARTS, TASKS
@@ -105,6 +106,23 @@ def operator_table(figures: Figures, task: Task) -> Table:
     return Table(task.title, ["library", "way", *cases, "notes"], rows, caption, remarks(figures, task))
 
 
+def polylla_table(figures: Figures, task: Task) -> Table:
+    """Times, and the quality of what came out."""
+    cases = list(dict.fromkeys(record["case"] for record in figures.records if record["task"] == task.name))
+    table = task_table(figures, task)
+    records = [figures.ours(task.name, case) for case in cases]
+    for what, told in (
+        ("triangles", [f"{r['items']:,}" if r else "" for r in records]),
+        ("polygons", [f"{r['facts']['polygons']:,.0f}" if r else "" for r in records]),
+        ("polygons that are not simple", [f"{r['facts']['not simple']:.0f}" if r else "" for r in records]),
+    ):
+        table.rows.append([OURS, what, *told, ""])
+    cells = [duration(QUOTED_TIME * 1e-9) if case == case_of(LARGE, "Qhull's order") else "" for case in cases]
+    if any(cells):
+        table.rows.append(["the authors'", "Polylla-Mesh-DCEL", *cells, "C++, quoted; 322,065 polygons of a like mesh"])
+    return table
+
+
 def memory_table(figures: Figures, task: Task) -> Table:
     cases = list(dict.fromkeys(record["case"] for record in figures.of(task.name)))
     rows = []
@@ -174,8 +192,14 @@ def duration(seconds: float) -> str:
 
 
 UNITS = (("s", 1.0), ("ms", 1e-3), ("us", 1e-6), ("ns", 1e-9))
-PER_ITEM = {"handles", "edits", "growing", "queries"}  # one of them is what a reader wants to know of
-TABLES = {"handles": handle_table, "operators": operator_table, "memory": memory_table, "first_use": first_use_table}
+PER_ITEM = {"handles", "edits", "growing", "queries", "polylla"}  # one of them is what a reader wants to know of
+TABLES = {
+    "handles": handle_table,
+    "operators": operator_table,
+    "memory": memory_table,
+    "first_use": first_use_table,
+    "polylla": polylla_table,
+}
 
 
 def tables(figures: Figures, tasks: list[str]) -> list[Table]:
@@ -207,6 +231,8 @@ def short_table(figures: Figures, part: str) -> Table:
         ("split an edge, from Python", "edits", "split_edge", ""),
         ("collapse an edge where it may be, from Python", "edits", "collapse", ""),
         ("add a face, from Python", "growing", growth("add_face", max(figures.plan.growing)), ""),
+        ("Polylla mesh of random Delaunay triangles", "polylla", case_of(max(figures.plan.points), "coherent"), ""),
+        ("the same, as Qhull lists them", "polylla", case_of(max(figures.plan.points), "Qhull's order"), ""),
     ]
     rows = [[what, *compared(figures, task, case, way)] for what, task, case, way in asked if task in PARTS[part]]
     if part == "changing":

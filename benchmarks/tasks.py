@@ -10,6 +10,7 @@ from benchmarks.handles import HANDLES
 from benchmarks.memory import MEMORY
 from benchmarks.normals import NORMALS
 from benchmarks.operators import OPERATORS
+from benchmarks.polylla import POLYLLA
 from benchmarks.queries import QUERIES
 from benchmarks.reading import READING
 from benchmarks.rings import RINGS
@@ -32,10 +33,16 @@ TASKS = {
         QUERIES,
         NORMALS,
         MEMORY,
+        POLYLLA,
         FIRST_USE,
     )
 }
 
 CHANGING = ("operators", "edits", "growing", "bulk", "queries")
-PARTS = {"asking": [name for name in TASKS if name not in CHANGING], "changing": list(CHANGING)}
+MESHING = ("polylla",)
+PARTS = {
+    "asking": [name for name in TASKS if name not in CHANGING + MESHING],
+    "changing": list(CHANGING),
+    "meshing": list(MESHING),
+}
 """Each part has tables of its own on the pages, and keeps them as they are while none of its tasks is measured."""

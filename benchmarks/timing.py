@@ -35,7 +35,8 @@ class Way:
 @dataclass(frozen=True)
 class Plan:
     """How large: levels of the sphere, sizes of the adversarial meshes and of those that grow; how many steps through
-    handles, and turns of an operator and queries. How long: rounds and seconds in one process.
+    handles, turns of an operator and queries, random points to triangulate. How long: rounds and seconds in one
+    process.
 
     Passes go over all libraries, each in a new process, so that a slow moment of the machine meets them all.
     """
@@ -48,6 +49,7 @@ class Plan:
     steps: int = 200_000
     growing: tuple[int, ...] = (10_000, 100_000, 1_000_000)
     turns: int = 1_000
+    points: tuple[int, ...] = (100_000, 1_000_000)
     rounds: int = 4
     seconds: float = 4.0
     passes: int = 3
@@ -62,6 +64,7 @@ QUICK = Plan(
     sides=100_000,
     steps=20_000,
     growing=(1_000, 10_000, 100_000),
+    points=(10_000, 50_000),
     rounds=3,
     seconds=1.0,
     passes=1,

@@ -9,6 +9,7 @@ from benchmarks.figures import OURS, Figures, Record, fastest, ratio
 from benchmarks.growing import growth
 from benchmarks.operators import FLIP, QUOTED, QUOTED_TRIANGLES, SPLIT
 from benchmarks.operators import operations as operations_of
+from benchmarks.polylla import COPIES, LARGE, ORDERS, QUOTED_TIME, case_of
 from benchmarks.queries import SMALLEST
 from benchmarks.task import size
 
@@ -26,10 +27,13 @@ class Verdict:
 
 
 def verdicts(figures: Figures, part: str) -> list[Verdict]:
-    """The bars of one part of the benchmarks, "asking" or "changing"; see `tasks.PARTS`."""
-    asking = (building, adversarial, polygons, memory, loops, files, first_use)
-    groups = asking if part == "asking" else (operators, editing, growing)
-    return [row for group in groups for row in group(figures)]
+    """The bars of one part of the benchmarks, "asking", "changing" or "meshing"; see `tasks.PARTS`."""
+    groups = {
+        "asking": (building, adversarial, polygons, memory, loops, files, first_use),
+        "changing": (operators, editing, growing),
+        "meshing": (polylla,),
+    }
+    return [row for group in groups[part] for row in group(figures)]
 
 
 def at_least(what: str, bar: float, figure: float | None, unit: str, more: str = "") -> Verdict:
@@ -167,6 +171,20 @@ def growing(figures: Figures) -> list[Verdict]:
         told("add_faces, the second half to a mesh of the first: time per face, to building", ratio(half, build), "x"),
         told("add_faces, against openmesh's", ratio(rival, added), "x"),
     ]
+
+
+def polylla(figures: Figures) -> list[Verdict]:
+    """Time, how it grows, and that every polygon is simple, which sorting all their corners tells."""
+    largest, rows = max(figures.plan.points), []
+    for order, bar in zip(ORDERS, (170, 300), strict=True):
+        record = figures.ours("polylla", case_of(largest, order))
+        time = None if record is None else 1e9 * float(record["best"]) / int(record["items"])
+        quoted = f"; the authors' C++, quoted: {QUOTED_TIME}" if order != "coherent" and largest == LARGE else ""
+        rows.append(at_most(f"Polylla, {case_of(largest, order)}: time of a triangle", bar, time, "ns", quoted))
+    small, large = (figures.ours("polylla", case_of(n, "coherent")) for n in (largest, COPIES * largest))
+    rows.append(at_most(f"Polylla, {COPIES} x as many triangles: time of a triangle", 1.5, ratio(large, small), "x"))
+    failed = [record["facts"]["not simple"] for record in figures.of("polylla", peer=OURS)]
+    return [*rows, at_most("Polylla, polygons that are not simple", 0, sum(failed) if failed else None, "polygons")]
 
 
 def files(figures: Figures) -> list[Verdict]:

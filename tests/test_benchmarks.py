@@ -4,10 +4,13 @@ from __future__ import annotations
 
 from typing import Any
 
+import numpy as np
 import pytest
 
+import halfmesh as hm
 from benchmarks.data import make
 from benchmarks.operators import FLIP, SPLIT
+from benchmarks.polylla import beside_each_other, n_not_simple
 from benchmarks.timing import QUICK, Way, race
 
 hm_peer: Any = pytest.importorskip("benchmarks.compare.halfmesh").peer
@@ -50,6 +53,17 @@ def test_operators_in_a_kernel_come_back_to_where_they_began() -> None:
     assert split == {"collapses": 80, "vertices": 42, "faces": 80}
     assert 0 < flip["flips"] <= 24
     assert list(hm_peer.operators(SPHERE)) == [SPLIT, FLIP]
+
+
+def test_polygons_are_counted_and_looked_at() -> None:
+    (facts,) = results(hm_peer.polylla(SPHERE))
+    assert facts["not simple"] == 0
+    assert 0 < facts["polygons"] < 80
+    assert n_not_simple(np.array([0, 1, 2, 0, 1, 2, 1, 0, 1]), np.array([0, 3, 7, 9])) == 2
+
+
+def test_copies_are_components() -> None:
+    assert hm.Mesh(*beside_each_other(SPHERE, 3)).n_connected_components == 3
 
 
 def test_growing_gives_as_many_as_asked() -> None:

@@ -25,6 +25,7 @@ from benchmarks.compare.peer import (
     triangles,
 )
 from benchmarks.operators import FLIP, SPLIT
+from benchmarks.polylla import n_not_simple
 from benchmarks.timing import NotOfferedError
 from halfmesh import outgoing, target_of
 
@@ -267,6 +268,18 @@ class HalfMesh(Peer):
         return {
             "vertex_normals, by area": Way(lambda: hm.geometry.vertex_normals(mesh, weights="area"), "area weighted"),
             "vertex_normals": Way(lambda: hm.geometry.vertex_normals(mesh), "angle weighted"),
+        }
+
+    def polylla(self, surface: Surface) -> Ways:
+        mesh = hm.Mesh(surface.faces, surface.points)
+
+        def quality(polygons: hm.Mesh) -> dict[str, float]:
+            return {"polygons": polygons.n_faces, "not simple": n_not_simple(*polygons.face_vertices())}
+
+        return {
+            "polylla": Way(
+                lambda: hm.polylla(mesh), "to the half-edge mesh of polygons, points included", facts=quality
+            )
         }
 
 

@@ -88,6 +88,10 @@ class Peer:
         """Unit normals of the vertices as an (n, 3) array, from the built mesh."""
         raise NotOfferedError("no vertex normals")
 
+    def polylla(self, surface: Surface) -> Ways:
+        """The Polylla mesh of triangles, from the built mesh to connectivity of polygons."""
+        raise NotOfferedError("no Polylla meshes")
+
 
 def triangles(surface: Surface) -> Array:
     """The (n, 3) array of faces, for a library that takes nothing else."""

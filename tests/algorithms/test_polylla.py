@@ -307,6 +307,19 @@ def test_number_of_threads_makes_no_difference(n, monkeypatch):
     assert np.array_equal(report.triangle_polygon, again.triangle_polygon)
 
 
+def test_mesh_so_large_that_corners_can_hardly_be_numbered_is_cut_into_fewer_stretches(monkeypatch):
+    mesh = hm.Mesh(*_many_defects())
+    expected = polygons_of(hm.polylla(mesh))
+    for module in ("halfmesh.geometry._passes", "halfmesh.core.matching"):
+        monkeypatch.setattr(f"{module}._PART", 5)
+    monkeypatch.setenv("HALFMESH_NUM_THREADS", "8")
+    monkeypatch.setattr("halfmesh.algorithms._polylla_travel.LIMIT", 6 * mesh.n_faces)
+    assert polygons_of(hm.polylla(mesh)) == expected
+    monkeypatch.setattr("halfmesh.algorithms._polylla_travel.LIMIT", 2 * mesh.n_faces)
+    with pytest.raises(hm.PreconditionError, match="more corners than int32"):
+        hm.polylla(mesh)
+
+
 def _many_defects():
     """All of them beside each other."""
     triangles, points = [], []

@@ -83,7 +83,7 @@ def _number_wire(t: Any, marks: Any, places: Any, e: int, n_edges: int) -> None:
             e += 1
 
 
-def write(t: Any, marks: Bytes, walks: Walks, numbering: Numbering, n_vertices: int) -> Arrays:
+def write(t: Any, marks: Bytes, walks: Walks, numbering: Numbering, n_vertices: int, n_edges: int) -> Arrays:
     """The columns. O(n), on all threads."""
     n_polygons, n_corners = len(walks.begins), int(walks.degrees.sum())
     arrays = empty_columns(n_vertices, numbering.n_edges, n_polygons)
@@ -98,7 +98,7 @@ def write(t: Any, marks: Bytes, walks: Walks, numbering: Numbering, n_vertices: 
     n_exterior = 2 * numbering.n_edges - n_corners
     if n_exterior:
         outer = (t, marks, walks.places, *columns, arrays.vertex_halfedge)
-        parallel(_write_outside.at(len(marks)), [(*outer, *piece) for piece in ranges(2 * (len(marks) // 2))])
+        parallel(_write_outside.at(len(marks)), [(*outer, *piece) for piece in ranges(n_edges)])
     arrays.counts[N_EXTERIOR] = n_exterior
     return arrays
 
@@ -138,16 +138,19 @@ def _write_outside(
     t: Any, marks: Any, places: Any, next: Any, prev: Any, origin: Any, face: Any, vertex_halfedge: Any,
     low: int, high: int,
 ) -> None:  # fmt: skip
-    for h in range(low, high):
-        if marks[h] & OUTSIDE:
-            x, y = places[h], places[next_of(t, h)]
-            v = origin_of(t, h)
-            next[x] = y
-            prev[y] = x
-            origin[x] = v
-            face[x] = -1
-            if halfedge_of_vertex(t, v) == h:
-                vertex_halfedge[v] = x
+    for e in range(low, high):
+        h = halfedge_of_edge(t, e)
+        for _ in range(2):
+            if marks[h] & OUTSIDE:
+                x, y = places[h], places[next_of(t, h)]
+                v = origin_of(t, h)
+                next[x] = y
+                prev[y] = x
+                origin[x] = v
+                face[x] = -1
+                if halfedge_of_vertex(t, v) == h:
+                    vertex_halfedge[v] = x
+            h = twin_of(t, h)
 
 
 def old_halfedges(marks: Bytes, walks: Walks, numbering: Numbering) -> NDArray[np.int64]:

@@ -26,6 +26,7 @@ from halfmesh.algorithms._polylla_marks import CUT, PENDING, Bytes, Ints, is_int
 from halfmesh.algorithms._polylla_travel import Walks
 from halfmesh.core.matching import parts
 from halfmesh.core.navigation import face_of, next_of, origin_of, target_of, twin_of
+from halfmesh.errors import PreconditionError
 from halfmesh.geometry._passes import ranges
 
 __all__ = ["repair"]
@@ -53,7 +54,7 @@ def repair(t: Any, marks: Bytes, seeds: Ints, walks: Walks, n_vertices: int) -> 
         made.append((place, added))
         place += room
     if place > len(walks.corners):
-        raise OverflowError(f"a repair of {len(bad)} regions needs more corners than int32 can number")
+        raise PreconditionError(f"a repair of {len(bad)} regions may need more corners than int32 can number")
     found = parallel(_repair.at(10 * int(sides.sum())), jobs)
     behind = [[rows[k][:n] for (_, rows), (n, _) in zip(made, found, strict=True)] for k in range(3)]
     starts, begins, degrees = (np.concatenate(rows) for rows in behind)
@@ -77,10 +78,12 @@ def _repair(
     n_added, c = 0, place
     for i in range(low, high):
         p = bad[i]
-        old_end = begins[p] + degrees[p]
-        stack[0] = corners[begins[p]]
-        marks[stack[0]] |= PENDING
-        top = 1
+        begin, n = begins[p], degrees[p]
+        old_end = begin + n
+        for k in range(n):
+            loop[k] = corners[begin + k]
+        way = _shortest_way(t, loop, n, visits)
+        top = _cut(t, marks, loop, n, way, visits, path, cuts, stack, 0)
         while top > 0:
             top -= 1
             start = stack[top]
@@ -88,27 +91,36 @@ def _repair(
                 continue
             n, has_seed = _walk(t, marks, start, seeds[p], loop)
             way = _shortest_way(t, loop, n, visits)
-            if way == n and has_seed:  # simple
+            if way < n:
+                top = _cut(t, marks, loop, n, way, visits, path, cuts, stack, top)
+            elif has_seed:
                 degrees[p] = n
-                _put(t, loop, n, begins[p], corners, vertices, places)
-                for k in range(begins[p] + n, old_end):
+                _put(t, loop, n, begin, corners, vertices, places)
+                for k in range(begin + n, old_end):
                     corners[k] = -1
-            elif way == n:
+            else:
                 new_starts[n_added], new_begins[n_added], new_degrees[n_added] = start, c, n
                 n_added += 1
                 _put(t, loop, n, c, corners, vertices, places)
                 c += n
-            else:
-                n_cuts = _middles(t, marks, loop, n, way, visits, path, cuts)
-                for k in range(n_cuts):
-                    h = cuts[k]
-                    g = twin_of(t, h)
-                    if is_internal(marks, h, g):  # two ways may have the same middle
-                        marks[h] |= CUT | PENDING
-                        marks[g] |= CUT | PENDING
-                        stack[top], stack[top + 1] = h, g
-                        top += 2
     return n_added, c
+
+
+@kernel
+def _cut(
+    t: Any, marks: Any, loop: Any, n: int, way: int, visits: Any, path: Any, cuts: Any, stack: Any, top: int
+) -> int:
+    """Cut all ways of that length in the middle; both sides of each cut go on the stack, to be walked from."""
+    n_cuts = _middles(t, marks, loop, n, way, visits, path, cuts)
+    for k in range(n_cuts):
+        h = cuts[k]
+        g = twin_of(t, h)
+        if is_internal(marks, h, g):  # two ways may have the same middle
+            marks[h] |= CUT | PENDING
+            marks[g] |= CUT | PENDING
+            stack[top], stack[top + 1] = h, g
+            top += 2
+    return top
 
 
 @kernel

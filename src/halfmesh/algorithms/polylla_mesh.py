@@ -169,8 +169,9 @@ def partitioned(
     walks = repair(t, marks, seeds, walks, sizes.n_vertices)
     passed("repair")
     numbering = number(t, marks, walks, sizes.n_edges, n_wire)
-    arrays = write(t, marks, walks, numbering, sizes.n_vertices)
     old = old_halfedges(marks, walks, numbering) if follows else None
+    walks = walks._replace(corners=walks.corners[:0].copy())  # memory for the columns
+    arrays = write(t, marks, walks, numbering, *sizes[:2])
     passed("write")
     n_added = len(walks.degrees) - len(seeds)
     return Partition(arrays, walks.of_triangle, old, n_wire, walks.n_tips, len(walks.bad), n_added)
