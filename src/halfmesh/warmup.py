@@ -20,7 +20,6 @@ import numpy as np
 
 import halfmesh as hm
 from halfmesh import _jit
-from halfmesh.core import navigation
 from halfmesh.core.operators import building
 from halfmesh.core.pens import rewind
 from halfmesh.core.search import find_halfedge
@@ -81,7 +80,6 @@ def jobs() -> list[Job]:
         ("reading in little memory", _read_compact),
         ("walking in kernels", lambda _: _walk(hm.shapes.cube(), 0)),
         ("smoothing", lambda _: _smooth()),
-        ("holding in little memory", _hold_in_little),
     ]
 
 
@@ -342,24 +340,6 @@ def _smooth() -> None:
 
     mesh = hm.shapes.icosphere(0)
     smooth(mesh, mesh.points, mesh.points.copy())
-
-
-def _hold_in_little(folder: Path) -> None:
-    """Both forms that are only read; the compact one with holes, two components and an isolated vertex."""
-    triangles = hm.TriangleMesh(hm.shapes.tetrahedron())
-    mesh = hm.shapes.grid(6, 5)
-    for f in (8, 16):
-        mesh.remove_face(f)
-    mesh.append(hm.shapes.cube())
-    mesh.add_vertex()
-    hm.CompactMesh(mesh, maps=True).save(folder / "mesh.hmc")
-    compact = hm.CompactMesh.load(folder / "mesh.hmc")
-    compact.to_mesh()
-    for small in (triangles, compact):
-        for rule in navigation.__all__:
-            if not rule.endswith("_slots"):
-                getattr(hm, rule)(small, np.arange(1))  # over arrays: each rule as the mesh has it
-        small.vertices[0].neighbors(), small.face_vertices()
 
 
 # ----------------------------------------------------------------------------------------------- what has been compiled
