@@ -30,29 +30,8 @@ from halfmesh.compact.topology import CARRIER, N_COMPONENTS, N_ISOLATED, N_OPEN,
 from halfmesh.core import navigation
 from halfmesh.core.topology import EDGE_SLOTS, FACE_SLOTS, VERTEX_SLOTS
 
-__all__ = [
-    "ccw_of",
-    "cw_of",
-    "edge_of",
-    "edge_slots",
-    "face_of",
-    "face_slots",
-    "halfedge_of_edge",
-    "halfedge_of_face",
-    "halfedge_of_vertex",
-    "halfedge_slots",
-    "is_boundary_edge",
-    "is_boundary_vertex",
-    "is_exterior",
-    "is_isolated",
-    "next_of",
-    "opposite_face_of",
-    "origin_of",
-    "prev_of",
-    "target_of",
-    "twin_of",
-    "vertex_slots",
-]
+__all__ = ["first_of_node"]
+__all__ += navigation.__all__
 
 # -- from a halfedge ---------------------------------------------------------------------------------------------
 
