@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from benchmarks.build import BUILD, POLYGONS, WORST
+from benchmarks.compact import COMPACT
 from benchmarks.edits import EDITS
 from benchmarks.first_use import FIRST_USE
 from benchmarks.growing import BULK, GROWING
@@ -34,12 +35,13 @@ TASKS = {
         NORMALS,
         MEMORY,
         POLYLLA,
+        COMPACT,
         FIRST_USE,
     )
 }
 
 CHANGING = ("operators", "edits", "growing", "bulk", "queries")
-MESHING = ("polylla",)
+MESHING = ("polylla", "compact")
 PARTS = {
     "asking": [name for name in TASKS if name not in CHANGING + MESHING],
     "changing": list(CHANGING),

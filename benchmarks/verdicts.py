@@ -5,7 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 from benchmarks import edits
-from benchmarks.figures import OURS, Figures, Record, fastest, ratio
+from benchmarks.compact import ENCODE, POLYLLA_ON_IT
+from benchmarks.figures import OURS, Figures, Record, fastest, ratio, seconds_per_item
 from benchmarks.growing import growth
 from benchmarks.operators import FLIP, QUOTED, QUOTED_TRIANGLES, SPLIT
 from benchmarks.operators import operations as operations_of
@@ -31,7 +32,7 @@ def verdicts(figures: Figures, part: str) -> list[Verdict]:
     groups = {
         "asking": (building, adversarial, polygons, memory, loops, files, first_use),
         "changing": (operators, editing, growing),
-        "meshing": (polylla,),
+        "meshing": (polylla, compact),
     }
     return [row for group in groups[part] for row in group(figures)]
 
@@ -185,6 +186,30 @@ def polylla(figures: Figures) -> list[Verdict]:
     rows.append(at_most(f"Polylla, {COPIES} x as many triangles: time of a triangle", 1.5, ratio(large, small), "x"))
     failed = [record["facts"]["not simple"] for record in figures.of("polylla", peer=OURS)]
     return [*rows, at_most("Polylla, polygons that are not simple", 0, sum(failed) if failed else None, "polygons")]
+
+
+def compact(figures: Figures) -> list[Verdict]:
+    """Size, time to make it, time of a question, and Polylla on it with as many polygons."""
+    rows = []
+    for case in dict.fromkeys(record["case"] for record in figures.of("compact")):
+        encode = figures.ours("compact", case, ENCODE)
+        bits = None if encode is None else float(encode["facts"]["bits"])
+        rows.append(at_most(f"compact, {case}: bits per edge", 5.0, bits, "bits"))
+        for way, what, bar, unit, scale in (
+            (ENCODE, "making it, an edge", 0.2, "us", 1e6),
+            ("twin_of", "twin in a kernel", 0.5, "us", 1e6),
+            ("next_of", "next in a kernel", 0.5, "us", 1e6),
+            ("origin_of", "origin in a kernel", 0.8, "us", 1e6),
+            ("face_of", "face in a kernel", 0.8, "us", 1e6),
+            (POLYLLA_ON_IT, "Polylla on it, a triangle", 8, "us", 1e6),
+        ):
+            record = figures.ours("compact", case, way)
+            figure = None if record is None else scale * seconds_per_item(record)
+            rows.append(at_most(f"compact, {case}: {what}", bar, figure, unit))
+        told = figures.ours("compact", case, POLYLLA_ON_IT)
+        others = None if told is None else abs(told["facts"]["polygons"] - told["facts"]["on a mesh"])
+        rows.append(at_most(f"compact, {case}: polygons that a mesh has and it has not", 0, others, "polygons"))
+    return rows
 
 
 def files(figures: Figures) -> list[Verdict]:

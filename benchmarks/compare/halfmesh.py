@@ -9,6 +9,7 @@ import numba
 import numpy as np
 
 import halfmesh as hm
+from benchmarks.compact import ENCODE, POLYLLA_ON_IT, RULES, random_elements
 from benchmarks.compare.peer import (
     Array,
     Peer,
@@ -281,6 +282,41 @@ class HalfMesh(Peer):
                 lambda: hm.polylla(mesh), "to the half-edge mesh of polygons, points included", facts=quality
             )
         }
+
+    def compact(self, surface: Surface) -> Ways:
+        mesh = hm.Mesh(surface.faces, surface.points)
+        small = hm.CompactMesh(mesh)
+        halfedges = random_elements(small.n_halfedges)
+        ways = {
+            ENCODE: Way(
+                lambda: hm.CompactMesh(mesh), "from the built mesh, points included", mesh.n_edges,
+                lambda made: {"bits": made.bits_per_edge},
+            ),
+            POLYLLA_ON_IT: Way(
+                lambda: hm.polylla(small), "by the kernels that run on a mesh", mesh.n_faces,
+                lambda polygons: {"polygons": polygons.n_faces, "on a mesh": hm.polylla(mesh).n_faces},
+            ),
+        }  # fmt: skip
+        return ways | {
+            rule: Way(lambda ask=ASKING[rule]: ask(small, halfedges), "random halfedges", len(halfedges))
+            for rule in RULES
+        }
+
+
+def asking(rule):  # type: ignore[no-untyped-def]
+    """A kernel that asks a rule about many elements."""
+
+    @hm.kernel
+    def ask(t, elements):  # type: ignore[no-untyped-def]
+        total = 0
+        for i in range(len(elements)):
+            total += rule(t, elements[i])
+        return total
+
+    return ask
+
+
+ASKING = {rule: asking(getattr(hm, rule)) for rule in RULES}
 
 
 @hm.kernel

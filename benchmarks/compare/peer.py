@@ -92,6 +92,10 @@ class Peer:
         """The Polylla mesh of triangles, from the built mesh to connectivity of polygons."""
         raise NotOfferedError("no Polylla meshes")
 
+    def compact(self, surface: Surface) -> Ways:
+        """A succinct form of a built mesh: making it, asking it."""
+        raise NotOfferedError("no succinct form")
+
 
 def triangles(surface: Surface) -> Array:
     """The (n, 3) array of faces, for a library that takes nothing else."""
