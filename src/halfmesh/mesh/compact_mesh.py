@@ -53,7 +53,7 @@ class CompactMesh(ReadOnlyMesh):
 
     Notes
     -----
-    O(n) to make, with 4 bytes a vertex and two bits an edge beside the result. A step takes a search among
+    O(n) to make, with 4 bytes a vertex and four bits an edge beside the result. A step takes a search among
     parentheses: some hundred nanoseconds, a few where it is near. Two of three steps along ``next`` and around
     vertices need one search at most, a third of them none. An isolated vertex takes nothing, a further component or
     hole 4 bytes, a boundary vertex 8 where it is not the first of its loop. See the internals in the documentation.
