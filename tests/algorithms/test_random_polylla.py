@@ -8,6 +8,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import halfmesh as hm
+from halfmesh.algorithms._polylla_marks import INSIDE, LONGEST, OUTSIDE
+from halfmesh.algorithms._polylla_repair import repair
+from halfmesh.algorithms._polylla_travel import travel
 from terminal_edges import Twin, certify, cycles, lattice, polygons_of, random_delaunay, shuffled
 
 seeds = st.integers(0, 2**32 - 1)
@@ -85,6 +88,41 @@ def test_spheres_with_points_anywhere(n, seed):
     for _ in range(n):
         mesh.split_face(mesh.faces[int(rng.integers(mesh.n_faces))])
     in_any_order(mesh.triangles(), rng.random(mesh.points.shape), seed)
+
+
+@given(st.integers(2, 12), seeds)
+def test_any_tree_of_all_triangles_falls_into_simple_polygons(n, seed):
+    """Regions that lengths hardly ever make: the whole patch, by a random spanning tree, with tips all over."""
+    mesh = hm.Mesh(*lattice(n, n, seed))
+    marks, start = marks_of_a_tree(mesh, np.random.default_rng(seed))
+    walks = travel(mesh, marks, start, mesh.n_vertices, mesh.n_faces)
+    assert walks.degrees.tolist() == [mesh.n_faces + 2]
+    walks = repair(mesh, marks, start, walks, mesh.n_vertices)
+    for begin, degree in zip(walks.begins.tolist(), walks.degrees.tolist(), strict=True):
+        assert len(set(walks.vertices[begin : begin + degree].tolist())) == degree
+    assert int((walks.degrees - 2).sum()) == mesh.n_faces
+    assert np.array_equal(np.bincount(walks.of_triangle), walks.degrees - 2)
+
+
+def marks_of_a_tree(mesh, rng):
+    """Marks as if each triangle's longest edge led to its parent in a random tree; and the edge where they all end."""
+    t = mesh.topology
+    marks = np.where(t.face < 0, OUTSIDE, INSIDE).astype(np.uint8)
+    reached, front, start = {0}, [0], None
+    while front:
+        f = front[rng.integers(len(front))]
+        leading = [h.index for h in mesh.faces[f].halfedges() if h.twin.face and h.twin.face.index not in reached]
+        if not leading:
+            front.remove(f)
+            continue
+        h = leading[rng.integers(len(leading))]
+        g = h ^ 1
+        marks[g] = LONGEST
+        if start is None:
+            marks[h], start = LONGEST, h
+        reached.add(int(t.face[g]))
+        front.append(int(t.face[g]))
+    return marks, np.array([start], np.int32)
 
 
 @pytest.mark.parametrize("name", hm.testing.zoo())
