@@ -379,9 +379,11 @@ def test_reader_of_the_output_may_leave_early(cube: Path) -> None:
 @pytest.mark.skipif(os.name != "posix", reason="signals are sent differently elsewhere")
 def test_interrupt_ends_without_a_traceback(tmp_path: Path) -> None:
     command = [sys.executable, "-c", MAIN, "demo", "--out", str(tmp_path)]
-    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as child:
+    nothing_compiled = os.environ | {"HALFMESH_CACHE_DIR": str(tmp_path / "cache")}
+    pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "text": True}
+    with subprocess.Popen(command, env=nothing_compiled, **pipes) as child:
         assert child.stdout is not None
-        child.stdout.readline()  # it has begun, and has a second of work before it
+        child.stdout.readline()  # it has begun, and has seconds of work before it
         child.send_signal(signal.SIGINT)
         _, complaint = child.communicate(timeout=60)
     assert complaint.strip() == "interrupted"

@@ -94,11 +94,13 @@ def show_warmup() -> None:
     out = console()
     started = time.perf_counter()
     helper = Helper()
-    with progress_bar(out, MofNCompleteColumn()) as progress:
-        task = progress.add_task("", total=None)
-        for name, i, n in warm_up():
-            progress.update(task, completed=i, total=n, description=name)
-    n_by_helper = helper.dismiss()
+    try:
+        with progress_bar(out, MofNCompleteColumn()) as progress:
+            task = progress.add_task("", total=None)
+            for name, i, n in warm_up():
+                progress.update(task, completed=i, total=n, description=name)
+    finally:
+        n_by_helper = helper.dismiss()
     took = time.perf_counter() - started
     click.echo(f"{n_compiled_here() + n_by_helper} kernels compiled, {n_from_cache()} were there already: {took:.1f} s")
     click.echo(where_kept())
