@@ -71,6 +71,7 @@ def jobs() -> list[Job]:
         ("counting", lambda _: _polygons().summary()),
         ("gathering neighbors", lambda _: _gather(_polygons())),
         ("measuring polygons", lambda _: _measure(hm.shapes.cube())),
+        ("measuring shapes", lambda _: hm.geometry.polygon_quality(_arrow())),
         ("measuring triangles", lambda _: _measure(hm.shapes.tetrahedron())),
         ("measuring in kernels", lambda _: _measure_one(hm.shapes.cube())),
         ("writing and reading OFF", lambda folder: _there_and_back(folder / "mesh.off")),
@@ -122,9 +123,14 @@ def _cut_holes() -> None:
 def _measure(mesh: hm.Mesh) -> None:
     for name in hm.geometry.__all__:
         measure = getattr(hm.geometry, name)
-        if callable(measure):
+        if isinstance(measure, types.FunctionType):
             measure(mesh)
     hm.geometry.vertex_normals(mesh, weights="area")
+
+
+def _arrow() -> hm.Mesh:
+    """A face that is not convex."""
+    return hm.Mesh([[0, 1, 2, 3]], [[0, 0], [2, 1], [0, 2], [1, 1]])
 
 
 def _measure_one(mesh: hm.Mesh) -> None:

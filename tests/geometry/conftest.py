@@ -8,11 +8,19 @@ import pytest
 import halfmesh as hm
 
 ZOO = hm.testing.zoo()
-MEASURES = {
-    name: getattr(hm.geometry, name)
-    for name in hm.geometry.__all__
-    if name not in {"kernels", "volume", "centroid", "bounding_box"}
-} | {"vertex_normals by area": lambda mesh: hm.geometry.vertex_normals(mesh, weights="area")}
+MEASURES = (
+    {
+        name: getattr(hm.geometry, name)
+        for name in hm.geometry.__all__
+        if name.islower() and name not in {"kernels", "volume", "centroid", "bounding_box", "polygon_quality"}
+    }
+    | {"polygon_quality": lambda mesh: quality_table(mesh)}
+    | {"vertex_normals by area": lambda mesh: hm.geometry.vertex_normals(mesh, weights="area")}
+)
+
+
+def quality_table(mesh):
+    return np.stack([np.asarray(column) for column in vars(hm.geometry.polygon_quality(mesh)).values()], axis=1)
 
 
 def randomly_placed(mesh, seed=0):

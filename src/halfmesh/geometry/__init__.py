@@ -6,7 +6,7 @@ are those of the living. The single-element formulas are in `halfmesh.geometry.k
 
 ==============  ====================================================================================================
 of edges        `edge_lengths` `edge_vectors`
-of faces        `face_areas` `face_normals` `face_vectors` `face_centroids` `face_barycenters`
+of faces        `face_areas` `face_normals` `face_vectors` `face_centroids` `face_barycenters` `polygon_quality`
 of corners      `corner_angles`
 of vertices     `vertex_normals`
 of the whole    `area` `volume` `centroid` `bounding_box`
@@ -29,9 +29,12 @@ from halfmesh.geometry.boxes import bounding_box
 from halfmesh.geometry.centers import centroid, face_barycenters, face_centroids
 from halfmesh.geometry.lengths import edge_lengths, edge_vectors
 from halfmesh.geometry.normals import face_normals, vertex_normals
+from halfmesh.geometry.quality import PolygonQuality, QualitySummary, polygon_quality
 from halfmesh.geometry.volumes import volume
 
 __all__ = [
+    "PolygonQuality",
+    "QualitySummary",
     "area",
     "bounding_box",
     "centroid",
@@ -44,6 +47,7 @@ __all__ = [
     "face_normals",
     "face_vectors",
     "kernels",
+    "polygon_quality",
     "vertex_normals",
     "volume",
 ]
