@@ -25,6 +25,7 @@ from halfmesh.core.pens import rewind
 from halfmesh.core.search import find_halfedge
 from halfmesh.core.slots import reserve
 from halfmesh.shapes._engine import Triangles
+from halfmesh.shapes._scattering import DistanceGrid, scattered
 from halfmesh.shapes.triangulations import _trimmed
 
 __all__ = ["jobs", "kernels_of", "n_compiled_here", "n_from_cache", "never_compiled", "warm_up"]
@@ -82,6 +83,7 @@ def jobs() -> list[Job]:
         ("cutting and sewing", lambda _: _sew()),
         ("triangulating", lambda _: _triangulate()),
         ("cutting holes", lambda _: _cut_holes()),
+        ("scattering points", lambda _: _scatter()),
         ("joining triangles", lambda _: _join_triangles()),
         ("walking in kernels", lambda _: _walk(hm.shapes.cube(), 0)),
         ("smoothing", lambda _: _smooth()),
@@ -126,6 +128,11 @@ def _measure(mesh: hm.Mesh) -> None:
         if isinstance(measure, types.FunctionType):
             measure(mesh)
     hm.geometry.vertex_normals(mesh, weights="area")
+
+
+def _scatter() -> None:
+    corners = np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]])
+    scattered(DistanceGrid.of([corners]), corners, 0.2, 0.1, np.random.default_rng(0))
 
 
 def _arrow() -> hm.Mesh:
