@@ -26,6 +26,7 @@ from halfmesh.core.pens import rewind
 from halfmesh.core.search import find_halfedge
 from halfmesh.core.slots import reserve
 from halfmesh.shapes._engine import Triangles
+from halfmesh.shapes._scattering import DistanceGrid, scattered
 from halfmesh.shapes.triangulations import _trimmed
 
 __all__ = ["Helper", "help_out", "jobs", "kernels_of", "n_compiled_here", "n_from_cache", "never_compiled", "warm_up"]
@@ -100,6 +101,7 @@ def jobs() -> list[Job]:
         ("counting", lambda _: _polygons().summary()),
         ("gathering neighbors", lambda _: _gather(_polygons())),
         ("measuring polygons", lambda _: _measure(hm.shapes.cube())),
+        ("measuring shapes", lambda _: hm.geometry.polygon_quality(_arrow())),
         ("measuring triangles", lambda _: _measure(hm.shapes.tetrahedron())),
         ("measuring in kernels", lambda _: _measure_one(hm.shapes.cube())),
         ("writing and reading OFF", lambda folder: _there_and_back(folder / "mesh.off")),
@@ -110,6 +112,7 @@ def jobs() -> list[Job]:
         ("cutting and sewing", lambda _: _sew()),
         ("triangulating", lambda _: _triangulate()),
         ("cutting holes", lambda _: _cut_holes()),
+        ("scattering points", lambda _: _scatter()),
         ("joining triangles", lambda _: _join_triangles()),
         ("walking in kernels", lambda _: _walk(hm.shapes.cube(), 0)),
         ("smoothing", lambda _: _smooth()),
@@ -152,9 +155,19 @@ def _cut_holes() -> None:
 def _measure(mesh: hm.Mesh) -> None:
     for name in hm.geometry.__all__:
         measure = getattr(hm.geometry, name)
-        if callable(measure) and not isinstance(measure, type):
+        if isinstance(measure, types.FunctionType):
             measure(mesh)
     hm.geometry.vertex_normals(mesh, weights="area")
+
+
+def _scatter() -> None:
+    corners = np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]])
+    scattered(DistanceGrid.of([corners]), corners, 0.2, 0.1, np.random.default_rng(0))
+
+
+def _arrow() -> hm.Mesh:
+    """A face that is not convex."""
+    return hm.Mesh([[0, 1, 2, 3]], [[0, 0], [2, 1], [0, 2], [1, 1]])
 
 
 def _measure_one(mesh: hm.Mesh) -> None:

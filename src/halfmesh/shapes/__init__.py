@@ -7,6 +7,7 @@ move and scale ``mesh.points`` for others.
 
 from __future__ import annotations
 
+from halfmesh.shapes.domains import gear, lake
 from halfmesh.shapes.known import moebius_faces, seed_triangulation
 from halfmesh.shapes.solids import cube, dodecahedron, icosahedron, octahedron, tetrahedron
 from halfmesh.shapes.spheres import icosphere
@@ -20,9 +21,11 @@ __all__ = [
     "delaunay",
     "disk",
     "dodecahedron",
+    "gear",
     "grid",
     "icosahedron",
     "icosphere",
+    "lake",
     "moebius_faces",
     "octahedron",
     "polygon",
