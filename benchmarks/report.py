@@ -9,12 +9,12 @@ from pathlib import Path
 from rich.console import Console
 from rich.table import Table as RichTable
 
-from benchmarks.compact import ENCODE, POLYLLA_ON_IT, RULES
+from benchmarks.compact import ENCODE, POLYLLA_ON_IT, RULES, random_case
 from benchmarks.data import ROOT
 from benchmarks.figures import OURS, YARDSTICKS, Figures, Record, fastest, ratio, seconds_per_item
 from benchmarks.growing import growth
 from benchmarks.operators import QUOTED, QUOTED_TRIANGLES, SPLIT, operations
-from benchmarks.polylla import LARGE, QUOTED_TIME, case_of
+from benchmarks.polylla import COPIES, LARGE, QUOTED_TIME, case_of
 from benchmarks.runner import results_path
 from benchmarks.task import Task, size
 from benchmarks.tasks import PARTS, TASKS
@@ -135,7 +135,7 @@ def compact_table(figures: Figures, task: Task) -> Table:
     for way, what in ((ENCODE, "making it, an edge"), *((rule, f"`{rule}`, random") for rule in RULES),
                       (POLYLLA_ON_IT, "Polylla on it, a triangle")):  # fmt: skip
         told = [figures.ours(task.name, case, way) for case in cases]
-        rows.append([what, *[duration(seconds_per_item(r)) if r else "" for r in told]])
+        rows.append([what, *map(each, told)])
     caption = (
         "halfmesh alone. The authors' program: 5.51 bits an edge, 0.52 us an edge to make, 72 us a triangle, quoted."
     )
@@ -245,6 +245,8 @@ def verdict_table(figures: Figures, part: str) -> Table:
 
 def short_table(figures: Figures, part: str) -> Table:
     """The README's: the main tasks of a part, ours beside the fastest other library and openmesh."""
+    if part == "meshing":
+        return beside_the_authors(figures)
     large, medium = size(figures.plan.large), size(figures.plan.medium)
     asked = [
         (f"build the mesh, {large} triangles", "build", f"{large} coherent", ""),
@@ -259,14 +261,34 @@ def short_table(figures: Figures, part: str) -> Table:
         ("split an edge, from Python", "edits", "split_edge", ""),
         ("collapse an edge where it may be, from Python", "edits", "collapse", ""),
         ("add a face, from Python", "growing", growth("add_face", max(figures.plan.growing)), ""),
-        ("Polylla mesh of random Delaunay triangles", "polylla", case_of(max(figures.plan.points), "coherent"), ""),
-        ("the same, as Qhull lists them", "polylla", case_of(max(figures.plan.points), "Qhull's order"), ""),
     ]
     rows = [[what, *compared(figures, task, case, way)] for what, task, case, way in asked if task in PARTS[part]]
     if part == "changing":
         kernel = beside_quoted(figures, f"{medium} coherent")
         rows.insert(0, ["split every face and collapse it back in your code", *kernel])
     return Table("", ["", OURS, "fastest other", "openmesh", "ratio"], rows)
+
+
+def beside_the_authors(figures: Figures) -> Table:
+    """Polylla and the compact mesh, beside what is known of the program of their authors."""
+    largest = max(figures.plan.points)
+    qhull, coherent = (figures.ours("polylla", case_of(largest, order)) for order in ("Qhull's order", "coherent"))
+    case = random_case(COPIES * largest)
+    encode, on_it = (figures.ours("compact", case, way) for way in (ENCODE, POLYLLA_ON_IT))
+    bits = f"{encode['facts']['bits']:.2f}" if encode else ""
+    rows = [
+        ["Polylla, a triangle, as Qhull lists them", each(qhull), f"{QUOTED_TIME} ns, compiled on a machine like this"],
+        ["the same in coherent order", each(coherent), ""],
+        [f"compact mesh of {COPIES * largest:,} vertices, bits an edge", bits, "5.51"],
+        ["making it, an edge", each(encode), "520 ns"],
+        ["Polylla on it, a triangle", each(on_it), "72 us"],
+    ]
+    return Table("", ["", OURS, "the authors' C++, quoted"], rows)
+
+
+def each(record: Record | None) -> str:
+    """The time of one item."""
+    return duration(seconds_per_item(record)) if record else ""
 
 
 def compared(figures: Figures, task: str, case: str, way: str) -> list[str]:
