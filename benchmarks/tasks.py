@@ -15,6 +15,7 @@ from benchmarks.polylla import POLYLLA
 from benchmarks.queries import QUERIES
 from benchmarks.reading import READING
 from benchmarks.rings import RINGS
+from benchmarks.throughput import THROUGHPUT
 from benchmarks.writing import WRITING
 
 TASKS = {
@@ -36,12 +37,13 @@ TASKS = {
         MEMORY,
         POLYLLA,
         COMPACT,
+        THROUGHPUT,
         FIRST_USE,
     )
 }
 
 CHANGING = ("operators", "edits", "growing", "bulk", "queries")
-MESHING = ("polylla", "compact")
+MESHING = ("polylla", "compact", "throughput")
 PARTS = {
     "asking": [name for name in TASKS if name not in CHANGING + MESHING],
     "changing": list(CHANGING),

@@ -13,6 +13,7 @@ from benchmarks.operators import operations as operations_of
 from benchmarks.polylla import COPIES, LARGE, ORDERS, QUOTED_TIME, case_of
 from benchmarks.queries import SMALLEST
 from benchmarks.task import size
+from benchmarks.throughput import BUILD, FILES
 
 WORDS = {True: "yes", False: "no", None: "not measured"}
 
@@ -32,7 +33,7 @@ def verdicts(figures: Figures, part: str) -> list[Verdict]:
     groups = {
         "asking": (building, adversarial, polygons, memory, loops, files, first_use),
         "changing": (operators, editing, growing),
-        "meshing": (polylla, compact),
+        "meshing": (polylla, compact, throughput),
     }
     return [row for group in groups[part] for row in group(figures)]
 
@@ -209,6 +210,18 @@ def compact(figures: Figures) -> list[Verdict]:
         told = figures.ours("compact", case, POLYLLA_ON_IT)
         others = None if told is None else abs(told["facts"]["polygons"] - told["facts"]["on a mesh"])
         rows.append(at_most(f"compact, {case}: polygons that a mesh has and it has not", 0, others, "polygons"))
+    return rows
+
+
+def throughput(figures: Figures) -> list[Verdict]:
+    """Bytes read and triangles built in a second."""
+    rows = []
+    for case, what, bar, unit in (
+        *((name, f"reading {name}", 150, "MB/s") for name in FILES),
+        (BUILD, "columns from arrays, coherent order", 10, "million triangles/s"),
+    ):
+        record = figures.ours("throughput", case)
+        rows.append(at_least(what, bar, None if record is None else 1e-6 / seconds_per_item(record), unit))
     return rows
 
 
