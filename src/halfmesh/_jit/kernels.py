@@ -24,6 +24,12 @@ F = TypeVar("F", bound=Callable[..., Any])
 all_kernels: list[Kernel[Any, Any]] = []
 
 
+_ONLY_READ = (
+    " One of the meshes is only read: a kernel may walk it by rules and circulators, and neither change it nor read "
+    "columns, t.next[h]; its to_mesh() gives one for which it may."
+)
+
+
 class Kernel(Compilable, Interpretable, Generic[P, R]):
     """A function of the subset of Python that Numba compiles; see the table at the top of this module."""
 
@@ -52,12 +58,12 @@ class Kernel(Compilable, Interpretable, Generic[P, R]):
         try:
             return compiled(*[lowered(a) for a in args])  # type: ignore[no-any-return]
         except Exception as error:
-            self._explain(error)
+            self._explain(error, args)
             raise
         finally:  # a kernel that failed may have run half, and what was announced is over
             refresh(args, compiled=True)
 
-    def _explain(self, error: Exception) -> None:
+    def _explain(self, error: Exception, args: tuple[Any, ...]) -> None:
         """Say at the end of what Python or Numba reports which kernel it was, and what usually helps."""
         code = self.py_func.__code__
         if not any(self.__qualname__ in note for note in getattr(error, "__notes__", ())):
@@ -65,7 +71,9 @@ class Kernel(Compilable, Interpretable, Generic[P, R]):
                 f"in the kernel {self.__qualname__} ({code.co_filename}, line {code.co_firstlineno}). "
                 f"{self.__name__}.interpreted(...) runs the same text in plain Python and shows the line. "
                 "In a kernel the mesh is its topology t: hm.vertex_slots(t), hm.next_of(t, h), hm.outgoing(t, v); "
-                "positions and other data are arguments of their own." + misspelled(self.py_func)
+                "positions and other data are arguments of their own."
+                + misspelled(self.py_func)
+                + (_ONLY_READ if any(is_bound(interpretable(a)) for a in args) else "")
             )
 
     def checked(self, *args: Any) -> R:

@@ -10,7 +10,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable
 from copy import deepcopy
-from typing import TYPE_CHECKING, Any, Literal, NamedTuple, NoReturn, overload
+from typing import Any, Literal, NamedTuple, NoReturn, overload
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,12 +29,10 @@ from halfmesh.algorithms._polylla_report import PHASES, PolyllaReport
 from halfmesh.algorithms._polylla_travel import travel
 from halfmesh.core.navigation import edge_of, edge_slots, face_slots, vertex_slots
 from halfmesh.core.topology import Arrays, Topology
-from halfmesh.errors import PreconditionError
+from halfmesh.errors import ElementError, PreconditionError
 from halfmesh.geometry._passes import Floats, points_of
 from halfmesh.mesh import Mesh
-
-if TYPE_CHECKING:
-    from halfmesh.mesh.asking import Asked
+from halfmesh.mesh.asking import Asked
 
 __all__ = ["PolyllaReport", "polylla"]
 
@@ -113,6 +111,8 @@ def polylla(
     >>> report.n_triangles, report.n_polygons, set(polygons.face_degrees().tolist())
     (800, 400, {4})
     """
+    if not isinstance(mesh, Asked):
+        raise ElementError(f"polylla(mesh) takes a mesh, not {type(mesh).__name__}; Mesh(faces, points) makes one")
     if not mesh.has_points:
         raise PreconditionError("polylla compares the lengths of edges, and this mesh has no points; set mesh.points")
     clock = _Clock(progress)

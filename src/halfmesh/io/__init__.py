@@ -149,8 +149,11 @@ def save(mesh: Mesh, path: Path) -> None:
         What the system refuses.
     """
     from halfmesh.io.meshes import data_of
+    from halfmesh.mesh.asking import Asked
     from halfmesh.mesh.mesh import Mesh
 
+    if isinstance(mesh, Asked) and not isinstance(mesh, Mesh):  # only read: its file is that of the ordinary mesh
+        mesh = mesh.to_mesh()
     if not isinstance(mesh, Mesh):
         raise ElementError(
             f"save(mesh, path) takes a Mesh, not {type(mesh).__name__}; for arrays: write(path, faces, points)"

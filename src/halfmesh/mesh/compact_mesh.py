@@ -15,7 +15,7 @@ from halfmesh.core.compaction import Maps
 from halfmesh.core.topology import Topology
 from halfmesh.errors import FormatError
 from halfmesh.mesh.mesh import Mesh
-from halfmesh.mesh.readonly import ReadOnlyMesh
+from halfmesh.mesh.readonly import ReadOnlyMesh, refuse_others
 
 __all__ = ["CompactMesh"]
 
@@ -48,6 +48,8 @@ class CompactMesh(ReadOnlyMesh):
 
     Raises
     ------
+    ElementError
+        It is not a `Mesh`.
     PreconditionError
         A component has genus; it says which, and how much.
 
@@ -82,6 +84,7 @@ class CompactMesh(ReadOnlyMesh):
     maps: Maps | None
 
     def __init__(self, mesh: Mesh, *, maps: bool = False) -> None:
+        refuse_others(mesh, "CompactMesh")
         started = time.perf_counter()
         encoded = compacted(mesh.topology)
         self._hold(encoded.topology, mesh.points[encoded.vertices], mesh.has_points)

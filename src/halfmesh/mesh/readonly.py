@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import time
 import weakref
-from typing import Any
+from copy import deepcopy
+from typing import Any, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,7 +13,7 @@ from numpy.typing import NDArray
 from halfmesh.compact import TriangleTopology
 from halfmesh.compact.carrier import Computed
 from halfmesh.core.topology import EDGE_SLOTS, FACE_SLOTS, VERTEX_SLOTS, Topology
-from halfmesh.errors import PreconditionError
+from halfmesh.errors import ElementError, PreconditionError
 from halfmesh.mesh.asking import Asked
 from halfmesh.mesh.attributes import AttributeTable
 from halfmesh.mesh.bound import BOUND
@@ -59,6 +60,28 @@ class ReadOnlyMesh(Asked):
         """Bytes of the connectivity and of all attributes, the points among them."""
         tables = (self.vertex_data, self.halfedge_data, self.edge_data, self.face_data)
         return self.topology_nbytes + sum(table.nbytes for table in tables)
+
+    def check(self) -> None:
+        """Check every law of a valid mesh, on the ordinary mesh that it stands for. O(n), with the memory of that.
+
+        Raises
+        ------
+        InvalidMeshError
+            Naming the law and the elements that break it.
+        """
+        self.to_mesh().check()
+
+    def copy(self) -> Self:
+        """A copy with points and attributes of its own; the connectivity, which can't change, is shared."""
+        made = object.__new__(type(self))
+        made.__dict__.update(self.__dict__)
+        made._hold(self._topology, self.points.copy(), self.has_points)
+        for name in ("vertex_data", "halfedge_data", "edge_data", "face_data"):
+            getattr(made, name)._adopt(getattr(self, name)._columns_in_use())
+        made.meta = deepcopy(self.meta)
+        return made
+
+    __copy__ = copy
 
     def to_mesh(self) -> Mesh:
         """An ordinary mesh, with the same vertices, edges and faces by number. O(n)."""
@@ -117,6 +140,8 @@ class TriangleMesh(ReadOnlyMesh):
 
     Raises
     ------
+    ElementError
+        It is not a `Mesh`.
     PreconditionError
         A face is not a triangle, or an edge has no face.
 
@@ -139,6 +164,7 @@ class TriangleMesh(ReadOnlyMesh):
     """
 
     def __init__(self, mesh: Mesh) -> None:
+        refuse_others(mesh, "TriangleMesh")
         started = time.perf_counter()
         if mesh.n_halfedges != mesh.topology.next.size or mesh.n_faces != mesh.topology.face_halfedge.size:
             mesh = mesh.copy()
@@ -147,6 +173,13 @@ class TriangleMesh(ReadOnlyMesh):
         _refuse_wire(mesh)
         self._hold(TriangleTopology.of(mesh.topology), mesh.points.copy(), mesh.has_points)
         self.build_seconds = time.perf_counter() - started
+
+
+def refuse_others(mesh: Any, kind: str) -> None:
+    """Raise unless it is an ordinary mesh, from which alone the others are made."""
+    if not isinstance(mesh, Mesh):
+        remedy = "mesh.to_mesh() gives one" if isinstance(mesh, Asked) else "Mesh(faces, points) makes one"
+        raise ElementError(f"{kind}(mesh) takes a Mesh, not {type(mesh).__name__}; {remedy}")
 
 
 def _refuse_wire(mesh: Mesh) -> None:
