@@ -28,10 +28,10 @@ from halfmesh.compact.parentheses import (
 )
 from halfmesh.compact.topology import CARRIER, N_COMPONENTS, N_ISOLATED, N_OPEN, N_SYMBOLS, Views
 from halfmesh.core import navigation
-from halfmesh.core.topology import EDGE_SLOTS, FACE_SLOTS, VERTEX_SLOTS
+from halfmesh.core.topology import VERTEX_SLOTS
 
 __all__ = ["first_of_node"]
-__all__ += navigation.__all__
+__all__ += [name for name in navigation.__all__ if not name.endswith("_slots")]  # the sizes stand where core has them
 
 # -- from a halfedge ---------------------------------------------------------------------------------------------
 
@@ -161,33 +161,6 @@ def is_boundary_vertex(t: Any, v: Any) -> Any:
     return h >= 0 and is_exterior(t, h)
 
 
-# -- sizes -------------------------------------------------------------------------------------------------------
-
-
-@rule
-def vertex_slots(t: Any) -> Any:
-    """Vertex indices are below this number."""
-    return t.counts[VERTEX_SLOTS]
-
-
-@rule
-def halfedge_slots(t: Any) -> Any:
-    """Halfedge indices are below this number."""
-    return 2 * t.counts[EDGE_SLOTS]
-
-
-@rule
-def edge_slots(t: Any) -> Any:
-    """Edge indices are below this number."""
-    return t.counts[EDGE_SLOTS]
-
-
-@rule
-def face_slots(t: Any) -> Any:
-    """Face indices are below this number."""
-    return t.counts[FACE_SLOTS]
-
-
 # -- nodes of the trees ------------------------------------------------------------------------------------------
 
 
@@ -286,6 +259,6 @@ def _before(t: Any, i: Any) -> Any:
     return (t.starts[c + 1] if i == t.starts[c] else i) - 1
 
 
-_HERE = {getattr(navigation, name): globals()[name] for name in navigation.__all__}
+_HERE = {getattr(navigation, name): globals()[name] for name in navigation.__all__ if name in globals()}
 CARRIER.bind(_HERE)
 Views.rules = _HERE
