@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import copy
+import pickle
+
 import numpy as np
 import pytest
 
 import halfmesh as hm
-from halfmesh.errors import ElementError
+from halfmesh.errors import ElementError, StaleElementError
 
 FORMS = [hm.TriangleMesh, hm.CompactMesh]
 
@@ -56,3 +59,39 @@ def test_an_operator_says_that_the_mesh_is_only_read(form):
     with pytest.raises(Exception, match="Unknown attribute") as raised:
         hm.flip(form(hm.shapes.icosphere(1)), 0)
     assert "only read" in "".join(raised.value.__notes__)
+
+
+@pytest.mark.parametrize("form", FORMS)
+def test_a_copy_takes_nothing_from_its_original(form):
+    small = form(hm.shapes.icosphere(1))
+    v = small.vertices[3]
+    before = v.point.copy()
+    again = small.copy()
+    again.points[:] = 0.0
+    assert v.mesh is small
+    assert v.point.tolist() == before.tolist()
+    assert v != again.vertices[3]
+
+
+@pytest.mark.parametrize("form", FORMS)
+@pytest.mark.parametrize(
+    "twice", [copy.deepcopy, lambda mesh: pickle.loads(pickle.dumps(mesh)), lambda mesh: mesh.copy()]
+)
+def test_attributes_and_remarks_go_along(form, twice):
+    small = form(hm.shapes.octahedron())
+    small.face_data["label"] = np.arange(small.n_faces)
+    small.meta["source"] = ["a scan"]
+    again = twice(small)
+    assert again.face_data["label"].tolist() == list(range(small.n_faces))
+    assert again.meta == small.meta
+    assert again.meta["source"] is not small.meta["source"]
+
+
+@pytest.mark.parametrize("form", FORMS)
+def test_a_handle_steps_on_when_its_mesh_is_gone(form):
+    """As the handles of a mesh do: what it stands on is held by the handle."""
+    h = form(hm.shapes.octahedron()).halfedges[0]
+    assert h.next.next.next == h
+    assert h.origin.degree == 4
+    with pytest.raises(StaleElementError):
+        _ = h.mesh

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from typing import Any, ClassVar
+from typing import Any, ClassVar, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -131,6 +131,12 @@ class ReadOnly(Computed):
     def nbytes(self) -> int:
         """Bytes that are held."""
         return sum(array.nbytes for array in self.arrays.values())
+
+    def shared(self) -> Self:
+        """Another carrier of the same arrays, for a mesh of its own."""
+        made = object.__new__(type(self))
+        made.__setstate__(self.__getstate__())
+        return made
 
     # -- a carrier -----------------------------------------------------------------------------------------------
 

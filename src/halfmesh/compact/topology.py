@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from halfmesh import _jit
-from halfmesh.compact.carrier import Computed
+from halfmesh.compact.carrier import ReadOnly
 from halfmesh.core.topology import EDGE_SLOTS, FACE_SLOTS, VERTEX_SLOTS
 
 __all__ = [
@@ -49,6 +49,8 @@ class Views(_jit.Views):
     def ask(self, rule: Any, index: int) -> Any:
         """The answer of a rule for one element: compiled in 0.3 us and more, where interpreting it takes 20."""
         topology = self.carrier()
+        if topology is None:  # its mesh is gone, and the handle walks on with what it holds
+            return super().ask(rule, index)
         entry = self.entries.get(rule)
         if entry is not None:
             return entry(topology.__compiled__(), index)
@@ -89,24 +91,21 @@ class Arrays:
         return sum(getattr(self, name).nbytes for name in FIELDS)
 
 
-class CompactTopology(Computed):
+class CompactTopology(ReadOnly):
     """The connectivity of a mesh in less than five bits per edge, directories included; it can't be changed.
 
     Kernels take it as ``t``, like a :class:`~halfmesh.core.topology.Topology`: all rules and circulators have the
     same names. It is made by :func:`~halfmesh.compact.encoding.compacted`.
     """
 
-    __slots__ = ("__weakref__", "_arrays", "_views", "lowered")
+    fields, carrier, views = FIELDS, CARRIER, Views
 
     def __init__(self, arrays: Arrays) -> None:
         self._arrays = arrays
-        self._views = Views()
-        self._views.carrier = weakref.ref(self)
-        self.lowered: Any = None  # the compiled form, once it was asked for
         for name in FIELDS:
-            array = getattr(arrays, name)
-            array.flags.writeable = False
-            setattr(self._views, name, _jit.view(array))
+            getattr(arrays, name).flags.writeable = False
+        super().__init__({name: getattr(arrays, name) for name in FIELDS})
+        self._views.carrier = weakref.ref(self)  # type: ignore[attr-defined]
 
     @property
     def n_vertices(self) -> int:
@@ -127,11 +126,6 @@ class CompactTopology(Computed):
     def n_faces(self) -> int:
         """The number of faces."""
         return int(self._arrays.counts[FACE_SLOTS])
-
-    @property
-    def nbytes(self) -> int:
-        """Bytes of all arrays."""
-        return self._arrays.nbytes
 
     @property
     def bits_per_edge(self) -> float:
@@ -157,27 +151,11 @@ class CompactTopology(Computed):
 
         return read(path)[0]
 
-    def __repr__(self) -> str:
-        return f"<CompactTopology: {self.n_vertices} vertices, {self.n_edges} edges, {self.n_faces} faces>"
-
-    # -- a carrier -----------------------------------------------------------------------------------------------
-
-    def __views__(self) -> Any:
-        return self._views
-
     def __arrays__(self) -> Any:
         return self._arrays
 
-    def __compiled__(self) -> Any:
-        if self.lowered is None:
-            self.lowered = CARRIER.make(*(getattr(self._arrays, name) for name in FIELDS))
-        return self.lowered
-
-    def __getstate__(self) -> dict[str, NDArray[Any]]:
-        return {name: getattr(self._arrays, name) for name in FIELDS}
-
-    def __setstate__(self, state: dict[str, NDArray[Any]]) -> None:
+    def __setstate__(self, state: dict[str, Any]) -> None:
         arrays = Arrays()
         for name in FIELDS:
-            setattr(arrays, name, state[name])
+            setattr(arrays, name, state["arrays"][name])
         self.__init__(arrays)  # type: ignore[misc]

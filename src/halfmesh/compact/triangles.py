@@ -13,7 +13,7 @@ from halfmesh import _jit
 from halfmesh.compact import triangle_rules
 from halfmesh.compact.carrier import ReadOnly, counts_of, rules_of, views_class
 from halfmesh.core import tables
-from halfmesh.core.navigation import is_exterior
+from halfmesh.core.navigation import is_exterior, twin_of
 from halfmesh.core.topology import Topology
 
 __all__ = ["TriangleTopology"]
@@ -38,7 +38,7 @@ class TriangleTopology(ReadOnly):
         new = np.empty(len(order) + 1, dtype=np.int32)
         new[order] = np.arange(len(order))
         new[-1] = -1  # for vertices without a halfedge
-        twin = new[order ^ 1]
+        twin = new[twin_of(t, order)]
         ahead = np.cumsum(twin > np.arange(len(twin)), dtype=np.int32)
         starts = np.arange(0, max(len(twin), 1), triangle_rules.BLOCK)
         arrays = {

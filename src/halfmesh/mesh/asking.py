@@ -151,3 +151,14 @@ class Asked(Counted):
 
     def _repr_html_(self) -> str:
         return self.summary()._repr_html_()
+
+    # -- a carrier: kernels take a mesh as its topology --------------------------------------------------------------
+
+    def __views__(self) -> Any:
+        return self._t
+
+    def __arrays__(self) -> Any:
+        return self._topology.__arrays__()
+
+    def __compiled__(self) -> Any:
+        return self._topology.__compiled__()

@@ -220,15 +220,6 @@ class Mesh(Editable, Undoable):
         if failed is not None:
             raise failed
 
-    def __views__(self) -> Any:
-        return self._t
-
-    def __arrays__(self) -> Any:
-        return self._topology.__arrays__()
-
-    def __compiled__(self) -> Any:
-        return self._topology.__compiled__()
-
     def __announce__(self, args: tuple[Any, ...]) -> None:
         self._topology.__announce__(args)
 

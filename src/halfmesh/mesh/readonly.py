@@ -17,6 +17,7 @@ from halfmesh.errors import ElementError, PreconditionError
 from halfmesh.mesh.asking import Asked
 from halfmesh.mesh.attributes import AttributeTable
 from halfmesh.mesh.bound import BOUND
+from halfmesh.mesh.editing.base import TABLES
 from halfmesh.mesh.mesh import Mesh
 
 __all__ = ["TriangleMesh"]
@@ -58,8 +59,7 @@ class ReadOnlyMesh(Asked):
     @property
     def nbytes(self) -> int:
         """Bytes of the connectivity and of all attributes, the points among them."""
-        tables = (self.vertex_data, self.halfedge_data, self.edge_data, self.face_data)
-        return self.topology_nbytes + sum(table.nbytes for table in tables)
+        return self.topology_nbytes + sum(int(getattr(self, name).nbytes) for name in TABLES)
 
     def check(self) -> None:
         """Check every law of a valid mesh, on the ordinary mesh that it stands for. O(n), with the memory of that.
@@ -75,8 +75,8 @@ class ReadOnlyMesh(Asked):
         """A copy with points and attributes of its own; the connectivity, which can't change, is shared."""
         made = object.__new__(type(self))
         made.__dict__.update(self.__dict__)
-        made._hold(self._topology, self.points.copy(), self.has_points)
-        for name in ("vertex_data", "halfedge_data", "edge_data", "face_data"):
+        made._hold(self._topology.shared(), self.points.copy(), self.has_points)
+        for name in TABLES:
             getattr(made, name)._adopt(getattr(self, name)._columns_in_use())
         made.meta = deepcopy(self.meta)
         return made
@@ -95,27 +95,15 @@ class ReadOnlyMesh(Asked):
         return self._topology.expanded()  # type: ignore[no-any-return]
 
     def __getstate__(self) -> dict[str, Any]:
-        return {
-            "topology": self._topology,
-            "points": self.points,
-            "has_points": self.has_points,
-            "seconds": self.build_seconds,
-        }
+        state: dict[str, Any] = {name: getattr(self, name)._columns_in_use() for name in TABLES}
+        remarks = {"has_points": self.has_points, "seconds": self.build_seconds, "meta": self.meta}
+        return state | {"topology": self._topology} | remarks
 
     def __setstate__(self, state: dict[str, Any]) -> None:
-        self._hold(state["topology"], state["points"], state["has_points"])
-        self.build_seconds = state["seconds"]
-
-    # -- a carrier: kernels take a mesh as its topology --------------------------------------------------------------
-
-    def __views__(self) -> Any:
-        return self._t
-
-    def __arrays__(self) -> Any:
-        return self._topology.__arrays__()
-
-    def __compiled__(self) -> Any:
-        return self._topology.__compiled__()
+        self._hold(state["topology"], state["vertex_data"]["points"].values, state["has_points"])
+        for name in TABLES:
+            getattr(self, name)._adopt(state[name])
+        self.build_seconds, self.meta = state["seconds"], state["meta"]
 
 
 class TriangleMesh(ReadOnlyMesh):
