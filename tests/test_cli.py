@@ -274,7 +274,7 @@ def test_polylla_shows_a_bar_where_somebody_is_watching(
     from rich.console import Console
 
     watched = Console(force_terminal=True, width=80)
-    monkeypatch.setattr("halfmesh.cli.joining.console", lambda: watched)
+    monkeypatch.setattr("halfmesh.cli.polylla.console", lambda: watched)
     with watched.capture() as shown:
         run("polylla", triangles, tmp_path / "out.off")
     assert "reading" in shown.get()

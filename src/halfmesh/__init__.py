@@ -75,7 +75,7 @@ if TYPE_CHECKING:
     )
     from halfmesh.io import load, save
     from halfmesh.mesh.compact_mesh import CompactMesh
-    from halfmesh.mesh.readonly import TriangleMesh
+    from halfmesh.mesh.triangle_mesh import TriangleMesh
     from halfmesh.shapes import delaunay
 
 __version__ = "0.1.0"
@@ -84,7 +84,7 @@ _ROOMS = ("algorithms", "geometry", "io", "shapes", "testing", "viewer")
 _LATER = dict.fromkeys(_ROOMS, "") | {
     "CompactMesh": "mesh.compact_mesh",
     "PolyllaReport": "algorithms",
-    "TriangleMesh": "mesh.readonly",
+    "TriangleMesh": "mesh.triangle_mesh",
     "delaunay": "shapes",
     "load": "io",
     "polylla": "algorithms",

@@ -134,7 +134,7 @@ def polylla(source: Path, target: Path, plot: Path | None, with_report: bool, as
     Triangles that share their longest edge, or lead to the same one, become one polygon. No point is added or moved.
     Any format is read and written, by the suffixes.
     """
-    from halfmesh.cli.joining import draw_joined, join, show_joined
+    from halfmesh.cli.polylla import draw_joined, join, show_joined
     from halfmesh.io.formats import format_of
     from halfmesh.viewer.polygons import check_picture
 
