@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from benchmarks.compare.peer import Array, Peer
 from benchmarks.data import Surface, load
-from benchmarks.memory import settle, status
+from benchmarks.memory import peak_of
 from benchmarks.polylla import COPIES, beside_each_other
 from benchmarks.task import Case, Task
 from benchmarks.timing import Plan, race
@@ -40,7 +39,7 @@ def measure(peer: Peer, case: Case, plan: Plan) -> list[Record]:
     surface = load(case.mesh)
     if case.name == random_case(COPIES * max(plan.points)):
         surface = beside_each_other(surface, COPIES)
-    return [*map(as_record, race(peer.compact(surface), plan, surface.n_faces)), peak_of(peer, surface)]
+    return [*map(as_record, race(peer.compact(surface), plan, surface.n_faces)), memory(peer, surface)]
 
 
 def as_record(timing: Any) -> Record:
@@ -48,14 +47,9 @@ def as_record(timing: Any) -> Record:
     return record
 
 
-def peak_of(peer: Peer, surface: Surface) -> Record:
+def memory(peer: Peer, surface: Surface) -> Record:
     """The peak while a compact mesh is made from a mesh, beside the bytes of that mesh; after all has run once."""
-    way = peer.compact(surface)[ENCODE]
-    settle()
-    Path("/proc/self/clear_refs").write_text("5")
-    before = status("VmRSS")
-    made = way.run()
-    peak = status("VmHWM") - before
+    made, peak = peak_of(peer.compact(surface)[ENCODE])
     facts = {"peak": peak, "connectivity": made.topology_nbytes, "points": made.points.nbytes}
     return {"way": "memory", "note": "", "items": surface.n_faces, "best": 0.0, "facts": facts}
 

@@ -11,7 +11,7 @@ from typing import Any
 from benchmarks.compare.peer import Peer
 from benchmarks.data import load
 from benchmarks.task import Case, Task, size
-from benchmarks.timing import NotOfferedError, Plan
+from benchmarks.timing import NotOfferedError, Plan, Way
 
 
 def cases(plan: Plan) -> list[Case]:
@@ -30,14 +30,21 @@ def measure(peer: Peer, case: Case, plan: Plan) -> list[dict[str, Any]]:
     surface = load(case.mesh)
     label, way = next(iter(peer.builds(surface).items()))
     settle()
-    Path("/proc/self/clear_refs").write_text("5")
     before = status("VmRSS")
-    mesh = way.run()
-    peak = status("VmHWM") - before
+    mesh, peak = peak_of(way)
     settle()
     held = status("VmRSS") - before
     columns = getattr(peer, "column_bytes", lambda mesh: 0)(mesh)
     return [{"way": label, "note": way.note, "items": surface.n_faces, "held": held, "peak": peak, "columns": columns}]
+
+
+def peak_of(way: Way) -> tuple[Any, int]:
+    """What a call makes, and by how much the process was larger meanwhile than before."""
+    settle()
+    Path("/proc/self/clear_refs").write_text("5")
+    before = status("VmRSS")
+    made = way.run()
+    return made, status("VmHWM") - before
 
 
 def settle() -> None:

@@ -11,6 +11,7 @@ import numpy as np
 
 from benchmarks.compare.peer import Array, Peer, Surface
 from benchmarks.data import load
+from benchmarks.memory import peak_of
 from benchmarks.task import Case, Task
 from benchmarks.timing import Plan, race
 
@@ -44,7 +45,11 @@ def measure(peer: Peer, case: Case, plan: Plan) -> list[Record]:
     surface = load(case.mesh)
     if case.name not in [case_of(n, order) for n in plan.points for order in ORDERS]:
         surface = beside_each_other(surface, COPIES)
-    return [timing.as_dict() for timing in race(peer.polylla(surface), plan, surface.n_faces)]
+    ways = peer.polylla(surface)
+    records: list[Record] = [timing.as_dict() for timing in race(ways, plan, surface.n_faces)]
+    (way,) = ways.values()
+    records[0]["peak"] = peak_of(way)[1]
+    return records
 
 
 def beside_each_other(surface: Surface, n: int) -> Surface:

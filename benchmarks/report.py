@@ -116,6 +116,10 @@ def polylla_table(figures: Figures, task: Task) -> Table:
         ("triangles", [f"{r['items']:,}" if r else "" for r in records]),
         ("polygons", [f"{r['facts']['polygons']:,.0f}" if r else "" for r in records]),
         ("polygons that are not simple", [f"{r['facts']['not simple']:.0f}" if r else "" for r in records]),
+        (
+            "peak, bytes a triangle, with the result",
+            [f"{r['peak'] / r['items']:.0f}" if r else "" for r in records],
+        ),
     ):
         table.rows.append([OURS, what, *told, ""])
     cells = [duration(QUOTED_TIME * 1e-9) if case == case_of(LARGE, "Qhull's order") else "" for case in cases]

@@ -185,6 +185,10 @@ def polylla(figures: Figures) -> list[Verdict]:
         rows.append(at_most(f"Polylla, {case_of(largest, order)}: time of a triangle", bar, time, "ns", quoted))
     small, large = (figures.ours("polylla", case_of(n, "coherent")) for n in (largest, COPIES * largest))
     rows.append(at_most(f"Polylla, {COPIES} x as many triangles: time of a triangle", 1.5, ratio(large, small), "x"))
+    memory = None
+    if small is not None and large is not None:
+        memory = (large["peak"] / large["items"]) / (small["peak"] / small["items"])
+    rows.append(at_most(f"Polylla, {COPIES} x as many triangles: peak memory of a triangle", 1.2, memory, "x"))
     failed = [record["facts"]["not simple"] for record in figures.of("polylla", peer=OURS)]
     return [*rows, at_most("Polylla, polygons that are not simple", 0, sum(failed) if failed else None, "polygons")]
 

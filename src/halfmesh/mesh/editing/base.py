@@ -187,6 +187,7 @@ class Base(Asked):
         raise TopologyError(f"can't {doing} {about}: {sentence}", reason=name)
 
     def _follow(self, args: tuple[Any, ...] = ()) -> None:
+        """What `Mesh` does: have the attributes follow the notes of a kernel."""
         raise NotImplementedError
 
 

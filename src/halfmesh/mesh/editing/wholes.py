@@ -258,6 +258,7 @@ class Wholes(Base):
         return made
 
     def _hold(self, topology: Topology) -> None:
+        """What `Mesh` does: take the topology for its own."""
         raise NotImplementedError
 
 
