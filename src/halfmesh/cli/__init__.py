@@ -1,7 +1,8 @@
 """The ``halfmesh`` command: what the library does, said in a terminal.
 
-Nothing is computed here. `app` has the commands, `report` says what is known of a file, `pages` prints it, `polylla` has
-the command of that name and `tour` the demo; the work is done by the rooms below. Click and Rich are known to this room only.
+Nothing is computed here. `app` has the commands, `report` says what is known of a file, `pages` prints it, `polylla`
+has the command of that name and `tour` the demo; the work is done by the rooms below. Click and Rich are known to this
+room only.
 """
 
 from __future__ import annotations

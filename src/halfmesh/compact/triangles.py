@@ -1,7 +1,7 @@
 """The triangle layout: half the bytes of the columns, nothing but origin and twin, read only.
 
 For meshes of triangles that do not change: 26 bytes a triangle, where the columns of a mesh that can be edited take
-54. Every question is answered at about the same speed. The halves of an array: Campagna, Kobbelt & Seidel (1998),
+54. Questions are answered at half the speed or better. The halves of an array: Campagna, Kobbelt & Seidel (1998),
 "Directed edges: a scalable representation for triangle meshes", J. Graphics Tools 3(4).
 """
 

@@ -18,7 +18,7 @@ class TriangleMesh(ReadOnlyMesh):
     """A mesh of triangles in 26 bytes a triangle, half of what a mesh takes that can be edited.
 
     Only the origin and the twin of each halfedge are stored; next, prev and face follow from where a halfedge stands.
-    It answers in the same words, in kernels too, at about the same speed, and can't be changed.
+    It answers in the same words, in kernels too, at half the speed or better, and can't be changed.
 
     Parameters
     ----------
