@@ -1,0 +1,63 @@
+"""Operators and points in one compiled call: what comes out is what comes of one after the other."""
+
+from __future__ import annotations
+
+import random
+
+import numpy as np
+import pytest
+
+import halfmesh as hm
+from alike import square
+from halfmesh import _jit
+from halfmesh.testing import assert_valid
+
+
+def edited(mesh, n):
+    """Splits and collapses, with places and without, until far more than `n` calls have been made of each."""
+    rng = random.Random(1)
+    for k in range(n):
+        place = None if k % 3 else [0.5, float(k), -1.0]
+        mesh.split_edge(rng.choice(mesh.edges.indices.tolist()), place, at=0.25 if place is None else 0.5)
+        mesh.split_face(rng.choice(mesh.faces.indices.tolist()), place)
+        e = rng.choice(mesh.edges.indices.tolist())
+        if mesh.can_split_edge_triangular(e):
+            mesh.split_edge_triangular(e, place, at=0.5)
+        for _ in range(3):
+            mesh.try_collapse(rng.choice(mesh.halfedges.indices.tolist()), place, at=0.75)
+    return mesh
+
+
+@pytest.mark.large
+@pytest.mark.parametrize("others", [False, True])
+def test_points_that_follow_in_the_same_call_are_those_that_follow_after_it(others, monkeypatch):
+    meshes = [hm.shapes.icosphere(1), hm.shapes.icosphere(1)]
+    for mesh in meshes if others else []:
+        mesh.vertex_data["x"] = mesh.points.copy()
+        mesh.halfedge_data["uv"] = np.arange(float(mesh.n_halfedges))
+    with _jit.compiling_always():
+        quick = edited(edited(meshes[0], 2), 200)
+        monkeypatch.setattr(hm.Mesh, "_act_at", act_and_place)
+        slow = edited(edited(meshes[1], 2), 200)
+    assert_valid(quick)
+    assert_valid(slow)
+    assert np.array_equal(quick.topology.next, slow.topology.next)
+    assert np.allclose(quick.points, slow.points, rtol=1e-14, atol=0)
+    if others:
+        assert np.array_equal(quick.vertex_data["x"], slow.vertex_data["x"])
+        assert np.array_equal(quick.halfedge_data["uv"], slow.halfedge_data["uv"])
+
+
+def act_and_place(mesh, operation, placing, element, weight, point, *more):
+    return mesh._act_and_place(operation, (element,) if weight is None else (element, weight, *more), point)
+
+
+def test_point_that_is_none_is_refused_before_anything_is_split():
+    for mesh in (square(), edited(hm.shapes.icosphere(1), 30)):
+        n = mesh.n_vertices
+        for bad in ([0, 0, 0, 0], [0, float("nan"), 0], "abc"):
+            with pytest.raises(hm.InvalidMeshError):
+                mesh.split_edge(mesh.edges.indices[0].item(), bad)
+            with pytest.raises(hm.InvalidMeshError):
+                mesh.split_face(mesh.faces.indices[0].item(), bad)
+        assert mesh.n_vertices == n
