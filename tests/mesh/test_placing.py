@@ -1,4 +1,4 @@
-"""Operators and points in one compiled call: what comes out is what comes of one after the other."""
+"""Points that are given: with operators in one compiled call as one after the other; assigned to a vertex."""
 
 from __future__ import annotations
 
@@ -61,3 +61,24 @@ def test_point_that_is_none_is_refused_before_anything_is_split():
             with pytest.raises(hm.InvalidMeshError):
                 mesh.split_face(mesh.faces.indices[0].item(), bad)
         assert mesh.n_vertices == n
+
+
+# -- assigned ---------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("form", [list, tuple, np.array, np.float32, lambda p: [np.float64(x) for x in p]])
+def test_point_is_assigned_in_any_form_that_adds_a_vertex(form):
+    mesh = hm.shapes.cube()
+    for given, expected in (([1.5, 2, 3], [1.5, 2, 3]), ([4.0, 5.0, 6.0], [4, 5, 6]), ([7.0, 8.0], [7, 8, 0])):
+        mesh.vertices[0].point = form(given)
+        assert mesh.points[0].tolist() == mesh.add_vertex(form(given)).point.tolist() == expected
+    mesh.vertices[1].point = mesh.vertices[0].point
+    assert mesh.points[1].tolist() == [7, 8, 0]
+
+
+def test_points_of_the_dead_are_not_assigned():
+    mesh = hm.shapes.cube()
+    v = mesh.vertices[0]
+    mesh.remove_vertex(v)
+    with pytest.raises(hm.StaleElementError):
+        v.point = [1, 2]

@@ -39,14 +39,19 @@ class Vertex(Element):
 
     @property
     def point(self) -> NDArray[np.float64]:
-        """Its position, shape (3,): a view, writing into it moves the vertex."""
+        """Its position, shape (3,): a view, writing into it moves the vertex.
+
+        Assigned may be what :meth:`Mesh.add_vertex` takes: three finite numbers, or two with z = 0.
+        """
         self._check()
         row: NDArray[np.float64] = self._t.vertex_data.row("points", self.index)
         return row
 
     @point.setter
     def point(self, point: Any) -> None:
-        self.point[:] = point
+        from halfmesh.mesh.editing.base import as_xyz  # which imports this module
+
+        self.point[:] = as_xyz(point)
 
     @property
     def degree(self) -> int:
