@@ -12,6 +12,7 @@ from halfmesh.core.operators.splits import (
     try_split_edge_triangular,
     try_split_face,
 )
+from halfmesh.core.slots import is_full
 from halfmesh.core.statuses import DELETED_ELEMENT, MISSING_ELEMENT
 from halfmesh.core.topology import NEWS
 from halfmesh.mesh.editing.base import Base, as_fraction
@@ -153,8 +154,8 @@ class Local(Base):
         return self._made(Vertex, v)
 
     def can_split_edge(self, edge: Edge | Halfedge | int) -> bool:
-        """Whether :meth:`split_edge` would put a vertex into the edge: always, if it lives."""
-        return self._living_halfedge(edge) >= 0
+        """Whether :meth:`split_edge` would put a vertex into the edge: any that lives, unless the mesh is full."""
+        return self._living_halfedge(edge) >= 0 and not is_full.plain(self._t, 1, 1, 0)
 
     def can_split_edge_triangular(self, edge: Edge | Halfedge | int, *, allow_parallel: bool = False) -> bool:
         """Whether :meth:`split_edge_triangular` would split the edge. O(1)."""
@@ -223,8 +224,9 @@ class Local(Base):
         return self._made(Vertex, v)
 
     def can_split_face(self, face: Face | int) -> bool:
-        """Whether :meth:`split_face` would put a vertex into the face: always, if it lives."""
-        return self._living(Face, face) >= 0
+        """Whether :meth:`split_face` would put a vertex into the face: any that lives, unless the mesh is full."""
+        degree = self._made(Face, self._living(Face, face)).degree
+        return not is_full.plain(self._t, 1, degree, degree)
 
     def split_face(self, face: Face | int, point: ArrayLike | None = None) -> Vertex:
         r"""Put a vertex into a face and join it to every corner.
