@@ -9,8 +9,8 @@ import pytest
 
 import halfmesh as hm
 from alike import square
-from halfmesh import _jit
 from halfmesh.testing import assert_valid
+from nimble import nimble, plain
 
 
 def edited(mesh, n):
@@ -30,15 +30,12 @@ def edited(mesh, n):
 
 @pytest.mark.large
 @pytest.mark.parametrize("others", [False, True])
-def test_points_that_follow_in_the_same_call_are_those_that_follow_after_it(others, monkeypatch):
+def test_points_that_follow_in_the_same_call_are_those_that_follow_after_it(others):
     meshes = [hm.shapes.icosphere(1), hm.shapes.icosphere(1)]
     for mesh in meshes if others else []:
         mesh.vertex_data["x"] = mesh.points.copy()
         mesh.halfedge_data["uv"] = np.arange(float(mesh.n_halfedges))
-    with _jit.compiling_always():
-        quick = edited(edited(meshes[0], 2), 200)
-        monkeypatch.setattr(hm.Mesh, "_act_at", act_and_place)
-        slow = edited(edited(meshes[1], 2), 200)
+    quick, slow = edited(nimble(meshes[0]), 200), edited(plain(meshes[1]), 200)
     assert_valid(quick)
     assert_valid(slow)
     assert np.array_equal(quick.topology.next, slow.topology.next)
@@ -46,10 +43,6 @@ def test_points_that_follow_in_the_same_call_are_those_that_follow_after_it(othe
     if others:
         assert np.array_equal(quick.vertex_data["x"], slow.vertex_data["x"])
         assert np.array_equal(quick.halfedge_data["uv"], slow.halfedge_data["uv"])
-
-
-def act_and_place(mesh, operation, placing, element, weight, point, *more):
-    return mesh._act_and_place(operation, (element,) if weight is None else (element, weight, *more), point)
 
 
 def test_point_that_is_none_is_refused_before_anything_is_split():

@@ -47,6 +47,7 @@ __all__ = [
     "Arrays",
     "Topology",
     "empty_columns",
+    "topology_at",
 ]
 
 Ints = NDArray[np.int32]
@@ -72,6 +73,7 @@ FIELDS = COLUMNS + SCRATCH
 FEW = 16  # corners of a face for which there is room twice
 _ROOM_FOR_JOURNAL = 2**17  # ints that are kept for the next transaction: 1 MB
 _CARRIER = _jit.declare_carrier("Topology", FIELDS)
+topology_at = _CARRIER.at(*[("i4", 1)] * 6, ("i8", 1), ("i8", 1), ("i4", 1), ("f8", 1), ("i8", 1))
 
 
 class Arrays:

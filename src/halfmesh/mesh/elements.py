@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING, Any
 from halfmesh._jit import declared
 from halfmesh.core import circulation, navigation
 from halfmesh.mesh.handles import Element, made, step
+from halfmesh.mesh.positions import as_point
 
 if TYPE_CHECKING:
     import numpy as np
@@ -49,9 +50,7 @@ class Vertex(Element):
 
     @point.setter
     def point(self, point: Any) -> None:
-        from halfmesh.mesh.editing.base import as_xyz  # which imports this module
-
-        self.point[:] = as_xyz(point)
+        self.point[:] = as_point(point)
 
     @property
     def degree(self) -> int:

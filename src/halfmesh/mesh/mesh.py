@@ -127,6 +127,7 @@ class Mesh(Editable, Undoable):
         self._topology = topology
         self._cache: dict[str, tuple[int, Any]] = {}
         self._savepoints = []
+        self._desk = None
         self._numbers = None
         counts = topology.__views__().counts
         self.vertex_data = AttributeTable("vertex", lambda: counts[VERTEX_SLOTS], ("points",), _noted(counts, VERTICES))
