@@ -1,6 +1,6 @@
 """Where the time of building goes: processor time of each pass, and of a plain loop that fills as much memory.
 
-Processor time of all threads, the least of several runs: where others use the machine too it is steadier than the clock.
+Processor time of all threads, the least of several runs: steadier than the clock where others use the machine too.
 """
 
 from __future__ import annotations
