@@ -88,7 +88,10 @@ def collapse(self: int, arguments: int, n: int, names: int) -> int:
         if n != 1 or names != 0 or not _is_living(t, h):
             return method(record, arguments, n, names)
         return boolean(collapse_status(t, h) == 0)
-    v = try_collapse(t, h, real_at(desk, WEIGHT))
+    weight = real_at(desk, WEIGHT)
+    noting = _note_less(t, desk, is_told == 1 or weight == 1.0)
+    v = try_collapse(t, h, weight)
+    t.counts[NOTING] = noting
     if v < 0:
         if mode == TRY and v < -DELETED_ELEMENT:
             return none(desk)
@@ -110,7 +113,9 @@ def split_edge(self: int, arguments: int, n: int, names: int) -> int:
     if is_told < 0:
         return method(record, arguments, n, names)
     t = topology_at(word_at(desk, TOPOLOGY))
+    noting = _note_less(t, desk, is_told == 1)
     v = try_split_edge(t, h, real_at(desk, WEIGHT))
+    t.counts[NOTING] = noting
     return _answer(t, desk, v, is_told) if v >= 0 else method(record, arguments, n, names)
 
 
@@ -128,7 +133,9 @@ def split_edge_triangular(self: int, arguments: int, n: int, names: int) -> int:
     if is_told < 0:
         return method(record, arguments, n, names)
     t = topology_at(word_at(desk, TOPOLOGY))
+    noting = _note_less(t, desk, is_told == 1)
     v = try_split_edge_triangular(t, h, real_at(desk, WEIGHT), False)
+    t.counts[NOTING] = noting
     return _answer(t, desk, v, is_told) if v >= 0 else method(record, arguments, n, names)
 
 
@@ -146,7 +153,9 @@ def split_face(self: int, arguments: int, n: int, names: int) -> int:
     if is_told < 0:
         return method(record, arguments, n, names)
     t = topology_at(word_at(desk, TOPOLOGY))
+    noting = _note_less(t, desk, is_told == 1)
     v = try_split_face(t, f)
+    t.counts[NOTING] = noting
     return _answer(t, desk, v, is_told) if v >= 0 else method(record, arguments, n, names)
 
 
@@ -211,6 +220,15 @@ def _has_room_around(desk: int) -> bool:
     return (  # type: ignore[no-any-return]
         2 * (t.counts[EDGE_SLOTS] + FEW) <= len(t.next) and t.counts[FACE_SLOTS] + FEW <= len(t.face_halfedge)
     )
+
+
+@kernel
+def _note_less(t: Any, desk: int, is_placed: bool) -> int:
+    """Have the operator note nothing where nobody follows but the points, and these are told; what to put back."""
+    noting = t.counts[NOTING]
+    if is_placed and word_at(desk, IS_ONLY) != 0 and noting == VERTICES:
+        t.counts[NOTING] = 0
+    return noting  # type: ignore[no-any-return]
 
 
 @kernel
