@@ -45,7 +45,7 @@ from halfmesh._jit.kernels import Kernel, Operation, all_kernels, inline_kernel,
 from halfmesh._jit.natives import Native, Record, are_possible, native, record_of, slots_of
 from halfmesh._jit.room import filled, grown
 from halfmesh._jit.rules import Rule, asking, rule
-from halfmesh._jit.threads import n_threads, parallel
+from halfmesh._jit.threads import in_succession, n_threads, parallel
 
 __all__ = [
     "Carrier",
@@ -73,6 +73,7 @@ __all__ = [
     "declared",
     "filled",
     "grown",
+    "in_succession",
     "inline_kernel",
     "kernel",
     "lowered",
