@@ -21,12 +21,13 @@ pytestmark = [
 ]
 
 
-def test_transactions_are_rolled_back():
+@pytest.mark.parametrize("include_held", [True, False])
+def test_transactions_are_rolled_back(include_held):
     mesh = nimble(hm.shapes.icosphere(1))
     decorate(mesh)
     before = frozen(mesh), mesh.points.copy()
     for _ in range(3):
-        with mesh.transaction() as attempt:
+        with mesh.transaction(include_held=include_held) as attempt:
             mesh.flip(0), mesh.split_face(1, [1.0, 2.0, 3.0]), mesh.split_edge(2), mesh.try_collapse(9, at=0.5)
             mesh.add_face([mesh.add_vertex([float(i), 1.0, 2.0]) for i in range(3)])
             attempt.rollback()
@@ -99,6 +100,20 @@ def test_kernels_grow_the_mesh_in_between():
         mesh.split_edge(4), mesh.try_collapse(10)
         mesh.append(start)
         mesh.split_face(6), mesh.flip(20)
+    same(*meshes)
+
+
+def test_columns_are_replaced_in_between():
+    """Where only the connectivity is: built over vertices that are there, or grown by an interpreted kernel."""
+    start = hm.Mesh([], points=np.arange(90.0).reshape(30, 3))
+    meshes = nimble(start.copy()), plain(start)
+    for mesh in meshes:
+        mesh.add_vertex([1.0, 2.0, 3.0])
+        mesh.add_faces(hm.shapes.icosphere(0).triangles())
+        mesh.flip(3), mesh.split_edge(4), mesh.add_face([20, 21, 22])
+        split_some.interpreted(mesh, 20)
+        mesh.flip(3), mesh.split_edge(5), mesh.add_face([23, 24, 25])
+        assert_valid(mesh)
     same(*meshes)
 
 

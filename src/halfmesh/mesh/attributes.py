@@ -388,7 +388,6 @@ class AttributeTable(MutableMapping[str, NDArray[Any]]):
         self._adopt(keeper.put_back(n_written))
 
     def _adopt(self, columns: dict[str, Column]) -> None:
-        self._forget_compiled()
         self._columns = columns
         self._tell(bool(columns))
 

@@ -70,7 +70,6 @@ ACT, TRY, ASK = 0, 1, 2  # call the method, which raises; answer that it was ref
     TYPE_PLACE,
     T_PLACE,
     INDEX_PLACE,
-    VIEWS_PLACE,
     LOWERED_PLACE,
     COLUMN_PLACE,
     POLICY_PLACE,
@@ -79,7 +78,7 @@ ACT, TRY, ASK = 0, 1, 2  # call the method, which raises; answer that it was ref
     Z,
     WEIGHT,
     N_WORDS,
-) = range(N_TOLD, N_TOLD + 26)
+) = range(N_TOLD, N_TOLD + 25)
 
 # Words of an array, by NumPy's ABI.
 ARRAY_DATA, ARRAY_N_DIMENSIONS, ARRAY_SHAPE, ARRAY_STRIDES, ARRAY_DTYPE = 2, 3, 4, 5, 7
@@ -105,11 +104,11 @@ def _places() -> tuple[int, ...]:
     handle: Any = object.__new__(Vertex)
     handle._t, handle.index = marks = object(), 2**40
     topology: Any = object.__new__(Topology)
-    topology._views, topology.lowered = marks
+    topology.lowered = marks[0]
     column: Any = object.__new__(Column)
     column.lowered, column.policy = marks
     in_handle = slots_of(handle, t=handle._t, index=handle.index)
-    in_topology = slots_of(topology, views=marks[0], lowered=marks[1])
+    in_topology = slots_of(topology, lowered=marks[0])
     in_column = slots_of(column, lowered=marks[0], policy=marks[1])
     row = np.zeros((2, 3))[1]
     in_array = slots_of(row, dtype=row.dtype)
@@ -119,7 +118,6 @@ def _places() -> tuple[int, ...]:
         in_handle["type"],
         in_handle["t"],
         in_handle["index"],
-        in_topology["views"],
         in_topology["lowered"],
         in_column["lowered"],
         in_column["policy"],

@@ -45,7 +45,6 @@ from halfmesh.mesh.desk import (
     TUPLE,
     TYPE_PLACE,
     VIEWS,
-    VIEWS_PLACE,
     WEIGHT,
     X,
 )
@@ -96,7 +95,6 @@ def is_open(desk: int) -> bool:
     topology, column = word_at(desk, OF_TOPOLOGY), word_at(desk, OF_POINTS)
     return (  # type: ignore[no-any-return]
         word_at(topology, word_at(desk, LOWERED_PLACE)) == word_at(desk, HELD_TOPOLOGY)
-        and word_at(topology, word_at(desk, VIEWS_PLACE)) == word_at(desk, VIEWS)
         and word_at(column, word_at(desk, COLUMN_PLACE)) == word_at(desk, HELD_POINTS)
         and word_at(column, word_at(desk, POLICY_PLACE)) == word_at(desk, HELD_POLICY)
     )
