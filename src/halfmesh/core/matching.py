@@ -21,7 +21,7 @@ a fifth off the whole construction in coherent order; in shuffled order it made 
 from __future__ import annotations
 
 from itertools import pairwise
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,7 +29,22 @@ from numpy.typing import NDArray
 from halfmesh._jit import kernel, n_threads, parallel
 from halfmesh.core.facelist import FaceList
 
-__all__ = ["NONE", "Defective", "after", "before", "corner_range", "mates_by_vertex", "mates_from_twins", "parts"]
+__all__ = [
+    "NONE",
+    "Blocks",
+    "Defective",
+    "after",
+    "before",
+    "corner_range",
+    "face_of_corner",
+    "in_blocks",
+    "kept",
+    "mates_by_vertex",
+    "mates_from_twins",
+    "parts",
+    "runs",
+    "sort_block",
+]
 
 Ints = NDArray[np.int32]
 
@@ -51,6 +66,14 @@ def parts(n: int, work: int) -> list[tuple[int, int]]:
     return list(pairwise(bounds))
 
 
+class Blocks(NamedTuple):
+    """The corners as (vertex, vertex before, vertex after, corner), those of block `b` in starts[b]..starts[b + 1]."""
+
+    streams: Ints
+    starts: Ints
+    shift: int
+
+
 def mates_by_vertex(faces: FaceList) -> Ints:
     """For each corner, the corner whose halfedge is the twin of the halfedge *before* it; -1 at a boundary.
 
@@ -58,6 +81,28 @@ def mates_by_vertex(faces: FaceList) -> Ints:
     ------
     Defective
         An index is out of range or repeated in succession, a halfedge is there twice, or a vertex can't be held.
+    """
+    n, n_vertices = faces.n_corners, faces.n_vertices
+    blocks = in_blocks(faces)
+    mates = np.empty(n, dtype=np.int32)
+    jobs: list[tuple[Any, ...]] = []
+    for low, high, largest in runs(blocks, n):
+        first = np.empty((1 << blocks.shift) + 2, dtype=np.int32)
+        around = np.empty(max(3 * largest, 1), dtype=np.int32)
+        table = np.full(n_vertices, NONE, dtype=np.int32)
+        jobs.append((*blocks, n_vertices, first, around, table, mates, low, high))
+    if sum(parallel(_match_blocks.at(n), jobs)):
+        raise Defective
+    return mates
+
+
+def in_blocks(faces: FaceList) -> Blocks:
+    """The corners of all faces, distributed to blocks of neighboring vertices.
+
+    Raises
+    ------
+    Defective
+        An index is out of range or repeated in succession, or a face has fewer than three corners.
     """
     n, n_vertices = faces.n_corners, faces.n_vertices
     pieces = parts(faces.n_faces, n)
@@ -72,10 +117,7 @@ def mates_by_vertex(faces: FaceList) -> Ints:
     streams = np.empty(4 * n, dtype=np.int32)
     pours = [(*source, shift, row, streams, *piece) for row, piece in zip(cursors, pieces, strict=True)]
     parallel(_distribute.at(n), pours)
-    mates = np.empty(n, dtype=np.int32)
-    if sum(parallel(_match_blocks.at(n), _block_jobs(streams, starts, shift, n_vertices, mates))):
-        raise Defective
-    return mates
+    return Blocks(streams, starts, shift)
 
 
 def _block_bits(n_vertices: int, n_parts: int) -> int:
@@ -94,19 +136,13 @@ def _first_places(cursors: Ints) -> Ints:
     return starts
 
 
-def _block_jobs(streams: Ints, starts: Ints, shift: int, n_vertices: int, mates: Ints) -> list[tuple[Any, ...]]:
-    """A run of blocks with about as many corners for each thread, with buffers for the largest of them."""
-    n_parts = len(parts(len(starts), len(mates)))
-    cuts = np.searchsorted(starts[1:-1], [len(mates) * i // n_parts for i in range(1, n_parts)])
+def runs(blocks: Blocks, n: int) -> list[tuple[int, int, int]]:
+    """Runs of blocks with about as many of the `n` corners for each thread, and the corners of the largest block."""
+    starts = blocks.starts
+    n_parts = len(parts(len(starts), n))
+    cuts = np.searchsorted(starts[1:-1], [n * i // n_parts for i in range(1, n_parts)])
     bounds = np.unique(np.r_[0, cuts, len(starts) - 1]).tolist()
-    jobs: list[tuple[Any, ...]] = []
-    for low, high in pairwise(bounds):
-        largest = int(np.diff(starts[low : high + 1]).max())
-        first = np.empty((1 << shift) + 2, dtype=np.int32)
-        around = np.empty(max(3 * largest, 1), dtype=np.int32)
-        table = np.full(n_vertices, NONE, dtype=np.int32)
-        jobs.append((streams, starts, shift, n_vertices, first, around, table, mates, low, high))
-    return jobs
+    return [(low, high, int(np.diff(starts[low : high + 1]).max())) for low, high in pairwise(bounds)]
 
 
 @kernel
@@ -135,6 +171,22 @@ def corner_range(degree: int, offsets: Any, f: int) -> tuple[int, int]:
     if degree > 0:
         return degree * f, degree * f + degree
     return offsets[f], offsets[f + 1]
+
+
+@kernel
+def face_of_corner(degree: int, corner_faces: Any, c: int) -> int:
+    """The face of the corner, see `FaceList.corner_faces`."""
+    if degree == 3:
+        return c // 3  # by a constant: a multiplication
+    if degree > 0:
+        return c // degree
+    return corner_faces[c]  # type: ignore[no-any-return]
+
+
+@kernel
+def kept(h: int) -> int:
+    """A halfedge in the place of a mate, which is below -1: of a corner that has it already; and back."""
+    return -2 - h
 
 
 @kernel
@@ -188,13 +240,13 @@ def _match_blocks(
     for block in range(low, high):
         base = block << shift
         n = min(n_vertices - base, 1 << shift)
-        _sort_block(streams, starts[block], starts[block + 1], base, n, first, around)
+        sort_block(streams, starts[block], starts[block + 1], base, n, first, around)
         wrong += _match(first, around, table, mates, n)
     return wrong
 
 
 @kernel
-def _sort_block(streams: Any, low: int, high: int, base: int, n: int, first: Any, around: Any) -> None:
+def sort_block(streams: Any, low: int, high: int, base: int, n: int, first: Any, around: Any) -> None:
     """Counting sort into ``around``: (vertex before, vertex after, corner); vertex `v` has first[v]..first[v + 1]."""
     for v in range(n + 2):
         first[v] = 0
