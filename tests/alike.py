@@ -10,7 +10,7 @@ import pytest
 import halfmesh as hm
 from halfmesh.core.topology import COLUMNS
 
-__all__ = ["alike", "changed", "figures", "refused", "shape_of", "some"]
+__all__ = ["alike", "changed", "columns", "figures", "refused", "shape_of", "some", "square"]
 
 
 def alike(one, other):
@@ -84,4 +84,10 @@ def refused(reason, operator, *elements, **options):
 
 
 def columns(mesh):
+    """Copies of all columns in use; of the counts, those of elements."""
     return {name: getattr(mesh.topology, name).copy() for name in COLUMNS[:-1]}
+
+
+def square():
+    """Two triangles."""
+    return hm.Mesh([[0, 1, 2], [0, 2, 3]], points=[[0, 0], [1, 0], [1, 1], [0, 1]])

@@ -1,16 +1,33 @@
-"""What the tests of transactions share: everything that a mesh holds, as bytes; and random changes of all sorts."""
+"""What the tests of transactions share: everything that a mesh holds, as bytes; random changes; rollbacks."""
 
 from __future__ import annotations
 
 import contextlib
 
 import numpy as np
+import pytest
 
 import halfmesh as hm
 
 COLUMNS = ("next", "prev", "origin", "face", "vertex_halfedge", "face_halfedge")
 TABLES = ("vertex_data", "halfedge_data", "edge_data", "face_data")
 REFUSALS = (hm.TopologyError, hm.ElementError, hm.StaleElementError, hm.InvalidMeshError)
+
+
+class RefusedError(Exception):
+    """What a block that is rolled back ends with."""
+
+
+def fail(mesh, change, **options):
+    """Change the mesh in a transaction that is rolled back."""
+
+    def block():
+        with mesh.transaction(**options):
+            change(mesh)
+            raise RefusedError
+
+    with pytest.raises(RefusedError):
+        block()
 
 
 def everything(mesh):
@@ -135,3 +152,18 @@ def _set_policy(mesh, rng):
 
 ATTRIBUTES = (_write_points, _replace, _create, _drop, _set_policy)
 COMPACTION = (lambda mesh, rng: mesh.compact(),)
+
+
+@hm.kernel
+def churn(t, stride):
+    """Split all faces, then flip and collapse here and there."""
+    for f in range(hm.face_slots(t)):
+        if hm.halfedge_of_face(t, f) >= 0:
+            hm.split_face(t, f)
+    for e in range(0, hm.edge_slots(t), stride):
+        if hm.next_of(t, 2 * e) >= 0 and hm.flip_status(t, e) == 0:
+            hm.flip(t, e)
+    for v in range(0, hm.vertex_slots(t), stride):
+        h = hm.halfedge_of_vertex(t, v)
+        if h >= 0 and hm.collapse_status(t, h) == 0:
+            hm.collapse(t, h)

@@ -6,33 +6,38 @@ import timeit
 from typing import Any
 
 import halfmesh as hm
-from halfmesh.core.operators.collapses import try_collapse
-from halfmesh.mesh.editing.placing import collapse_at
+from halfmesh._jit import compiling_always
+from halfmesh.core.operators.flips import flip_status
 
 CALLS = 200_000
 
 
 def main() -> None:
-    worn = hm.shapes.icosphere(3)
-    for f in range(1000):
-        worn.split_face(f)
-    for v in range(642, worn.n_vertices):  # until all is compiled, and its shortest way is known
-        worn.try_collapse(worn.vertices[v].halfedge)
-    mesh = hm.shapes.tetrahedron()  # on which every collapse is refused: nothing changes
-    mesh.try_collapse(0)
-    carrier, points = mesh.topology.__compiled__(), mesh.vertex_data.column("points").__compiled__()
-    told = carrier, points, True, False, 0.0, 0.0, 0.0
-    h = mesh.halfedges[0]
+    with compiling_always():
+        mesh = hm.shapes.tetrahedron()  # on which every flip and collapse is refused: nothing changes
+        mesh.add_vertex(), mesh.try_flip(0), mesh.can_flip(0), mesh.try_collapse(0)
+    carrier, e, v = mesh.topology.__compiled__(), mesh.edges[0], mesh.vertices[0]
+    in_python = type(mesh).can_flip
     for what, call in (
-        ("the operator, refusing", lambda: try_collapse.quick(carrier, 0, 1.0)),
-        ("with the points and the place", lambda: collapse_at.quick(*told, 0, 1.0)),
-        ("with the way to it", lambda: mesh._act_at(try_collapse, collapse_at, 0, 1.0, None)),
-        ("the method", lambda: mesh.try_collapse(h)),
-        ("a handle made", lambda: mesh._made(hm.Vertex, 0)),
         ("an empty call, which all of these contain", lambda: None),
+        ("an operation, as Numba calls it", lambda: flip_status.quick(carrier, 0, False)),
+        ("the method in plain Python around it", lambda: in_python(mesh, e)),
+        ("the native that does the same", lambda: mesh.can_flip(e)),
+        ("a handle made in plain Python", lambda: mesh._made(hm.Vertex, 0)),
+        ("a collapse, refused", lambda: mesh.try_collapse(0)),
+        ("a step, v.halfedge", lambda: v.halfedge),
     ):
         print(f"{what:45}{nanoseconds(call):6.0f} ns")
+    print(f"{'a native that makes a vertex and its handle':45}{growing():6.0f} ns")
     in_a_kernel()
+
+
+def growing() -> float:
+    """With the doubling of the columns that comes with it."""
+    mesh = hm.shapes.tetrahedron()
+    mesh.add_vertex()
+    add = mesh.add_vertex
+    return 1e9 * timeit.timeit(lambda: add(), number=CALLS) / CALLS
 
 
 @hm.kernel

@@ -395,6 +395,15 @@ def test_vertices_are_added_by_their_number():
     assert (mesh.points == 0).all()
 
 
+def test_points_that_are_not_finite_are_taken_in_bulk_as_by_the_constructor():
+    points = np.array([[np.nan, 1.0, 2.0], [np.inf, 0.0, -np.inf]])
+    built, assigned, mesh = hm.Mesh([], points), hm.Mesh([], n_vertices=2), hm.Mesh([])
+    assigned.points = points
+    mesh.add_vertices(points)
+    for each in (built, assigned, mesh):
+        assert np.array_equal(each.points, points, equal_nan=True)
+
+
 def test_what_are_no_points_is_refused():
     mesh = hm.shapes.cube()
     before = state(mesh)

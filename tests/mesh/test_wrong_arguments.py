@@ -106,10 +106,13 @@ def test_points_are_two_or_three_finite_real_numbers(point):
         lambda: mesh.split_edge(0, point),
         lambda: mesh.split_face(0, point),
         lambda: mesh.join_vertices(0, point),
+        lambda: setattr(mesh.vertices[0], "point", point),
     ):
-        with pytest.raises(hm.InvalidMeshError):
+        with pytest.raises(hm.InvalidMeshError) as refused:
             change()
+        assert refused.value.reason == "bad_points"
     assert (mesh.n_vertices, mesh.n_edges) == (8, 12)
+    assert np.array_equal(mesh.points, hm.shapes.cube().points)
 
 
 @pytest.mark.parametrize("n", [2.5, math.nan, math.inf, "3"])

@@ -13,7 +13,7 @@ Numba structref; in interpreted code it is an ordinary object with the same attr
 
 ::
 
-    circulators . rules . room
+    circulators . rules . room . natives
        |
     kernels       what is decorated
        |
@@ -21,33 +21,51 @@ Numba structref; in interpreted code it is an ordinary object with the same attr
        |
     compiler      dispatchers, the disk cache
        |
+    intrinsics    what Numba has no words for
+       |
     loops . plain . fingerprint . arguments . threads . gears
 """
 
 from halfmesh._jit.arguments import Carrier, Views, array_of, lowered, view
-from halfmesh._jit.carriers import CarrierType, declare_carrier
+from halfmesh._jit.carriers import CarrierAt, CarrierType, declare_carrier
 from halfmesh._jit.circulators import Circulator, circulator, declared
-from halfmesh._jit.compiler import apart, bit_count, bit_length, cache_folder
+from halfmesh._jit.compiler import cache_folder
 from halfmesh._jit.gears import compiling_always
+from halfmesh._jit.intrinsics import (
+    apart,
+    bit_count,
+    bit_length,
+    c_function,
+    real_at,
+    set_real,
+    set_word,
+    word_at,
+)
 from halfmesh._jit.kernels import Kernel, Operation, all_kernels, inline_kernel, kernel, operation, twofold
+from halfmesh._jit.natives import Native, Record, are_possible, native, record_of, slots_of
 from halfmesh._jit.room import filled, grown
 from halfmesh._jit.rules import Rule, asking, rule
-from halfmesh._jit.threads import n_threads, parallel
+from halfmesh._jit.threads import in_succession, n_threads, parallel
 
 __all__ = [
     "Carrier",
+    "CarrierAt",
     "CarrierType",
     "Circulator",
     "Kernel",
+    "Native",
     "Operation",
+    "Record",
     "Rule",
     "Views",
     "all_kernels",
     "apart",
+    "are_possible",
     "array_of",
     "asking",
     "bit_count",
     "bit_length",
+    "c_function",
     "cache_folder",
     "circulator",
     "compiling_always",
@@ -55,13 +73,21 @@ __all__ = [
     "declared",
     "filled",
     "grown",
+    "in_succession",
     "inline_kernel",
     "kernel",
     "lowered",
     "n_threads",
+    "native",
     "operation",
     "parallel",
+    "real_at",
+    "record_of",
     "rule",
+    "set_real",
+    "set_word",
+    "slots_of",
     "twofold",
     "view",
+    "word_at",
 ]

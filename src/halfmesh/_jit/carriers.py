@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+import functools
 import sys
 from collections.abc import Mapping
 from typing import Any
 
+import numpy as np
+
 from halfmesh._jit.compiler import Compilable, define_carriers, dispatcher, undefined
 from halfmesh._jit.fingerprint import fingerprints
+from halfmesh._jit.intrinsics import Intrinsic, compiled_only
 
-__all__ = ["CarrierType", "declare_carrier"]
+__all__ = ["CarrierAt", "CarrierType", "declare_carrier"]
 
 
 class CarrierType:
@@ -37,6 +41,10 @@ class CarrierType:
     def take(self, proxy: Any) -> tuple[Any, ...]:
         """The arrays that the compiled form holds now."""
         return self._take(proxy)  # type: ignore[no-any-return]
+
+    def at(self, *forms: tuple[str, int]) -> CarrierAt:
+        """``at(address)`` in a kernel: a carrier of this type, whose arrays have these dtypes and dimensions."""
+        return CarrierAt(self, forms)
 
     def define(self) -> None:
         """Create the Numba type; all carriers are defined before anything is compiled or read from the cache."""
@@ -73,6 +81,41 @@ class CarrierType:
             function = scope[f"{verb}_{self.name}"]
             function.__module__ = __name__
             setattr(self, f"_{verb}", dispatcher(function, salt=repr((self.fields, stamp))))
+
+
+class CarrierAt(Intrinsic):
+    """A carrier by its address: the number that `CarrierType.make` gave to Python."""
+
+    def __init__(self, carrier: CarrierType, forms: tuple[tuple[str, int], ...]) -> None:
+        self.carrier, self.forms = carrier, forms
+        super().__init__(f"{carrier.name}{carrier.fields} of {forms}", compiled_only, functools.cache(self._define))
+
+    @functools.cached_property
+    def kind(self) -> Any:
+        """The Numba type of the carrier."""
+        return self.carrier.make(*(np.zeros((1,) * n, dtype) for dtype, n in self.forms))._numba_type_
+
+    def fits(self, proxy: Any) -> bool:
+        """Whether that is what lies at this address."""
+        return bool(proxy._numba_type_ == self.kind)
+
+    def _define(self) -> Any:
+        from numba.core import cgutils
+        from numba.core import types as nbtypes
+        from numba.extending import intrinsic
+
+        kind = self.kind
+
+        @intrinsic
+        def borrow(typing_context: Any, address: Any) -> Any:
+            def generate(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+                carried = cgutils.create_struct_proxy(kind)(context, builder)
+                carried.meminfo = builder.inttoptr(arguments[0], carried.meminfo.type)
+                return carried._getvalue()
+
+            return kind(nbtypes.int64), generate
+
+        return borrow
 
 
 def _define_uncounted(carrier: Any) -> None:

@@ -14,19 +14,17 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from halfmesh._jit.fingerprint import fingerprint
+from halfmesh._jit.intrinsics import Intrinsic
 from halfmesh._jit.loops import with_column_reads
 
 if TYPE_CHECKING:
     import pathlib
-    from collections.abc import Callable
 
     from numba.core.caching import FunctionCache
 
 __all__ = [
     "Compilable",
-    "apart",
-    "bit_count",
-    "bit_length",
+    "c_address",
     "cache_folder",
     "define_carriers",
     "dispatcher",
@@ -56,7 +54,7 @@ def numba() -> Any:
     def _typeof(value: Any, context: Any) -> Any:
         return nbtypes.Dispatcher(value.compiled)
 
-    @typeof_impl.register(_Intrinsic)
+    @typeof_impl.register(Intrinsic)
     def _typeof_intrinsic(value: Any, context: Any) -> Any:
         from numba.core.registry import cpu_target
 
@@ -65,65 +63,6 @@ def numba() -> Any:
         return cpu_target.typing_context.resolve_value_type(made)
 
     return numba
-
-
-class _Intrinsic:
-    """What compiled code does by other means than Python's."""
-
-    def __init__(self, name: str, plain: Callable[..., Any], compiled: Callable[[], Any]) -> None:
-        self.name, self.plain, self.compiled = name, plain, compiled
-
-    def __call__(self, *args: Any) -> Any:
-        return self.plain(*args)
-
-    def __repr__(self) -> str:
-        return self.name
-
-
-@functools.cache
-def _never_inlined() -> Any:
-    from numba.core import types as nbtypes
-    from numba.extending import intrinsic
-
-    @intrinsic
-    def never_inlined(typing_context: Any) -> Any:
-        def generate(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
-            builder.function.attributes.add("noinline")
-            return context.get_dummy_value()
-
-        return nbtypes.void(), generate
-
-    return never_inlined
-
-
-@functools.cache
-def _on_bits(instruction: str) -> Any:
-    from numba.core import cgutils
-    from numba.core import types as nbtypes
-    from numba.extending import intrinsic
-
-    @intrinsic
-    def on_bits(typing_context: Any, word: Any) -> Any:
-        def generate(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
-            (x,) = arguments
-            if instruction == "ctpop":
-                return builder.ctpop(x)
-            return builder.sub(x.type(64), builder.ctlz(x, cgutils.false_bit))
-
-        return nbtypes.int64(nbtypes.int64), generate
-
-    return on_bits
-
-
-apart = _Intrinsic("apart", lambda: None, _never_inlined)
-"""``apart()`` in the body of a kernel keeps its code out of its callers: for the rare case in a small kernel, which
-LLVM would otherwise write into all of them. Twenty pens with the growth of the journal took 8 s to optimize."""
-
-bit_count = _Intrinsic("bit_count", int.bit_count, lambda: _on_bits("ctpop"))
-"""``bit_count(x)`` in a kernel: how many bits of an int64 that is not negative are 1, by one machine instruction."""
-
-bit_length = _Intrinsic("bit_length", int.bit_length, lambda: _on_bits("ctlz"))
-"""``bit_length(x)`` in a kernel: the place behind the highest 1 of an int64 that is not negative; 0 for 0."""
 
 
 @functools.cache
@@ -170,6 +109,7 @@ def dispatcher(
     inline: bool = False,
     nogil: bool = True,
     from_python: bool = True,
+    from_c: bool = False,
     salt: str = "",
     rule: Any = None,
 ) -> Any:
@@ -193,6 +133,8 @@ def dispatcher(
         Let other threads run while it does.
     from_python : bool
         Also make what Python needs to call it; for rules, which only kernels call, that would be half the code.
+    from_c : bool
+        Also make what C needs to call it, see `c_address`.
     salt : str
         What else the cache key depends on.
     rule : Rule, optional
@@ -208,7 +150,7 @@ def dispatcher(
         boundscheck=bounds or None,
         forceinline=inline,
         no_cpython_wrapper=not from_python,
-        no_cfunc_wrapper=True,  # for calls from C, which there are none of
+        no_cfunc_wrapper=not from_c,
     )(source)
     _forget_literals(made)
     if rule is not None:
@@ -260,12 +202,22 @@ def entry_point(made: Any, args: tuple[Any, ...]) -> Any:
     return None if found is None else getattr(found, "entry_point", None)
 
 
+def c_address(made: Any, n_arguments: int) -> int:
+    """Where the machine code of a dispatcher is, as C calls it with so many int64 and takes one from it."""
+    from numba.core import types as nbtypes
+
+    signature = (nbtypes.int64,) * n_arguments
+    made.compile(signature)
+    found = made.overloads[signature]
+    return int(found.library.get_pointer_to_function(found.fndesc.llvm_cfunc_wrapper_name))
+
+
 @functools.cache
 def _own_source() -> str:
     import pathlib
 
     here = pathlib.Path(__file__).parent
-    names = ("compiler", "carriers", "kernels", "rules", "circulators", "loops")
+    names = ("compiler", "intrinsics", "carriers", "kernels", "rules", "circulators", "loops", "natives")
     return "".join((here / f"{name}.py").read_text("utf-8") for name in names)
 
 

@@ -7,12 +7,13 @@ from __future__ import annotations
 
 import functools
 import os
-from collections.abc import Callable
+from collections import deque
+from collections.abc import Callable, Iterator
 from typing import Any, TypeVar
 
 from halfmesh._jit import gears
 
-__all__ = ["n_threads", "parallel"]
+__all__ = ["in_succession", "n_threads", "parallel"]
 
 R = TypeVar("R")
 
@@ -41,3 +42,17 @@ def parallel(function: Callable[..., R], jobs: list[tuple[Any, ...]]) -> list[R]
     if len(jobs) == 1 or n_threads() == 1 or gears.interpret_only:
         return [function(*job) for job in jobs]
     return list(_pool().map(lambda job: function(*job), jobs))
+
+
+def in_succession(function: Callable[..., R], jobs: list[tuple[Any, ...]]) -> Iterator[R]:
+    """The same one by one, a few jobs ahead of what was taken: for results too large to be kept."""
+    if len(jobs) == 1 or n_threads() == 1 or gears.interpret_only:
+        yield from (function(*job) for job in jobs)
+        return
+    running: deque[Any] = deque()
+    for job in jobs:
+        running.append(_pool().submit(function, *job))
+        if len(running) > 2 * n_threads():
+            yield running.popleft().result()
+    while running:
+        yield running.popleft().result()

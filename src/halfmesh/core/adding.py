@@ -77,7 +77,7 @@ def add_faces(t: Topology, faces: FaceList) -> None:
 
 def _build(t: Topology, faces: FaceList) -> None:
     deleted = t.vertex_halfedge == DELETED
-    built = construct(faces)[0].__arrays__()
+    built = construct(faces).__arrays__()
     if deleted.any():
         bad = np.flatnonzero(deleted[faces.corners])
         if len(bad):

@@ -43,7 +43,7 @@ __all__ = ["Defective", "construct", "number_edges", "write_halfedges"]
 Ints = NDArray[np.int32]
 
 
-def construct(faces: FaceList, twins: Ints | None = None) -> tuple[Topology, Ints]:
+def construct(faces: FaceList, twins: Ints | None = None) -> Topology:
     """Build the columns of a face list.
 
     Parameters
@@ -56,9 +56,7 @@ def construct(faces: FaceList, twins: Ints | None = None) -> tuple[Topology, Int
 
     Returns
     -------
-    topology : Topology
-    halfedges : ndarray of shape (n_corners,)
-        The halfedge of each corner.
+    Topology
 
     Raises
     ------
@@ -67,16 +65,18 @@ def construct(faces: FaceList, twins: Ints | None = None) -> tuple[Topology, Int
 
     Notes
     -----
-    O(corners + vertices) time for any input, 56 bytes of scratch a corner besides the columns.
+    O(corners + vertices) time for any input. Besides the columns 12 bytes of scratch a corner, for most meshes: what
+    was used for matching becomes the columns.
     """
-    mates = mates_by_vertex(faces) if twins is None else mates_from_twins(faces, twins)
+    mates, first_corners, room = mates_by_vertex(faces) if twins is None else mates_from_twins(faces, twins)
     halfedges, corners, n_edges = number_edges(faces, mates)
     del mates
-    arrays = _written(faces, halfedges, corners, n_edges)
-    del corners
+    arrays = empty_columns(faces.n_vertices, n_edges, faces.n_faces, room)
+    _write(arrays, faces, halfedges, corners, first_corners, n_edges)
+    del halfedges, corners
     _close_boundary(arrays, n_edges, 2 * n_edges - faces.n_corners)
     arrays.counts[N_EXTERIOR] = 2 * n_edges - faces.n_corners
-    return Topology(arrays), halfedges
+    return Topology(arrays)
 
 
 # ------------------------------------------------------------------------------------------------------------ numbering
@@ -137,17 +137,17 @@ def _number_new_edges(
 # -------------------------------------------------------------------------------------------------------------- columns
 
 
-def _written(faces: FaceList, halfedges: Ints, corners: Ints, n_edges: int) -> Arrays:
-    arrays = empty_columns(faces.n_vertices, n_edges, faces.n_faces)
+def _write(arrays: Arrays, faces: FaceList, halfedges: Ints, corners: Ints, first_corners: Ints, n_edges: int) -> None:
     n = faces.n_corners
-    sources = (faces.corners, faces.degree, faces.offsets, faces.corner_faces(), halfedges, corners)
+    shape = (faces.degree, faces.offsets, faces.corner_faces(), halfedges)
     columns = (arrays.next, arrays.prev, arrays.origin, arrays.face)
-    arrays.vertex_halfedge[:] = NONE
-    first = (*sources[:3], halfedges, arrays.vertex_halfedge, arrays.face_halfedge, faces.n_faces)
-    jobs: list[tuple[Any, ...]] = [(_write_first_halfedges.at(n), *first)]
-    jobs += [(write_halfedges.at(n), *sources, *columns, 0, *piece) for piece in parts(n_edges, n)]
+    jobs: list[tuple[Any, ...]] = [
+        (write_halfedges.at(n), *shape, faces.corners, corners, *columns, 0, *piece) for piece in parts(n_edges, n)
+    ]
+    of_vertices = (first_corners, arrays.vertex_halfedge)
+    jobs += [(_write_vertices.at(n), halfedges, *of_vertices, *piece) for piece in parts(faces.n_vertices, n)]
+    jobs += [(_write_faces.at(n), *shape, arrays.face_halfedge, *piece) for piece in parts(faces.n_faces, n)]
     parallel(_do, jobs)
-    return arrays
 
 
 def _do(function: Callable[..., Any], *arguments: Any) -> Any:
@@ -156,11 +156,11 @@ def _do(function: Callable[..., Any], *arguments: Any) -> Any:
 
 @kernel
 def write_halfedges(
-    vertices: Any,
     degree: int,
     offsets: Any,
     corner_faces: Any,
     halfedges: Any,
+    vertices: Any,
     corners: Any,
     next: Any,
     prev: Any,
@@ -196,13 +196,18 @@ def write_halfedges(
 
 
 @kernel
-def _write_first_halfedges(
-    vertices: Any, degree: int, offsets: Any, halfedges: Any, vertex_halfedge: Any, face_halfedge: Any, n_faces: int
+def _write_vertices(halfedges: Any, first_corners: Any, vertex_halfedge: Any, low: int, high: int) -> None:
+    """The halfedge of the first corner of each vertex, which matching has met: one read, not one a corner."""
+    for v in range(low, high):
+        c = first_corners[v]
+        vertex_halfedge[v] = halfedges[c] if c >= 0 else NONE
+
+
+@kernel
+def _write_faces(
+    degree: int, offsets: Any, corner_faces: Any, halfedges: Any, face_halfedge: Any, low: int, high: int
 ) -> None:
-    """Backwards, so that the first corner of each vertex has the last word."""
-    for c in range(len(vertices) - 1, -1, -1):
-        vertex_halfedge[vertices[c]] = halfedges[c]
-    for f in range(n_faces):
+    for f in range(low, high):
         face_halfedge[f] = halfedges[corner_range(degree, offsets, f)[0]]
 
 

@@ -138,6 +138,11 @@ def _crowded_edges(faces: FaceList, origin: Ints, target: Ints, face_of: Ints) -
     """Edges with more than two faces; else edges that two faces run along in the same direction."""
     n = max(faces.n_vertices, 1)
     edge = np.minimum(origin, target) * n + np.maximum(origin, target)
+    few = _keys_of_crowded(edge)
+    if 0 < len(few) <= SHOWN:  # found one by one: in a third of the time that it takes to sort all places
+        found = [np.flatnonzero(edge == key) for key in few]
+        lengths = np.array([len(places) for places in found])
+        return _too_many_faces(few, n, np.concatenate(found), np.cumsum(lengths) - lengths, lengths, face_of)
     order = np.argsort(edge, kind="stable")
     in_order = edge[order]
     starts = np.flatnonzero(np.r_[True, in_order[1:] != in_order[:-1]])
@@ -152,6 +157,13 @@ def _crowded_edges(faces: FaceList, origin: Ints, target: Ints, face_of: Ints) -
         return None
     pairs = np.stack([origin[first[same]], target[first[same]]], axis=1)
     return _disoriented(faces.n_faces, pairs, face_of[first], face_of[second], same)
+
+
+def _keys_of_crowded(edge: Ints) -> Ints:
+    """The edges that are there more than twice, ascending."""
+    in_order = np.sort(edge)
+    keys: Ints = in_order[2:][in_order[2:] == in_order[:-2]]
+    return keys[np.diff(keys, prepend=-1) > 0]
 
 
 def _too_many_faces(keys: Ints, n: int, order: Ints, starts: Ints, uses: Ints, face_of: Ints) -> InvalidMeshError:

@@ -33,11 +33,13 @@ __all__ = [
     "NONE",
     "Blocks",
     "Defective",
+    "Matches",
     "after",
     "before",
     "corner_range",
     "face_of_corner",
     "in_blocks",
+    "is_scattered",
     "kept",
     "mates_by_vertex",
     "mates_from_twins",
@@ -51,7 +53,10 @@ Ints = NDArray[np.int32]
 NONE = -1
 _PART = 20_000  # corners; below that a second thread costs more than it saves
 _MOST_PARTS = 8  # each holds a table of one int per vertex
-_MOST_BITS = 14  # 16384 vertices: about 100,000 corners, 1.2 MB
+_MOST_BITS = 14  # 16384 vertices: about 100,000 corners, 1.2 MB. Twice as many streams in shuffled order: 15 -> 40 ms
+_BITS_IN_ORDER = 12  # in coherent order few streams are written at a time, however many there are: sorting decides
+_SAMPLE = 1000
+_FEW_EXTERIOR = 8  # the columns fit into the streams if at most one edge in 32 corners is at a boundary
 _MOST_BLOCKS = 512  # streams that are written at the same time
 
 
@@ -74,8 +79,27 @@ class Blocks(NamedTuple):
     shift: int
 
 
-def mates_by_vertex(faces: FaceList) -> Ints:
-    """For each corner, the corner whose halfedge is the twin of the halfedge *before* it; -1 at a boundary.
+class Matches(NamedTuple):
+    """What is known of the corners once they are matched.
+
+    Attributes
+    ----------
+    mates : ndarray of shape (n_corners,)
+        For each corner, the corner whose halfedge is the twin of the halfedge *before* it; -1 at a boundary.
+    first_corners : ndarray of shape (n_vertices,)
+        The first corner of each vertex; -1 if it is isolated.
+    room : ndarray
+        Memory that was used and is free again, about what the columns of halfedges take: pages that the system gives
+        anew cost as much as what is written to them.
+    """
+
+    mates: Ints
+    first_corners: Ints
+    room: Ints
+
+
+def mates_by_vertex(faces: FaceList) -> Matches:
+    """Match the corners by the vertices before and after them.
 
     Raises
     ------
@@ -84,16 +108,16 @@ def mates_by_vertex(faces: FaceList) -> Ints:
     """
     n, n_vertices = faces.n_corners, faces.n_vertices
     blocks = in_blocks(faces)
-    mates = np.empty(n, dtype=np.int32)
+    found = Matches(np.empty(n, dtype=np.int32), np.empty(n_vertices, dtype=np.int32), blocks.streams)
     jobs: list[tuple[Any, ...]] = []
     for low, high, largest in runs(blocks, n):
         first = np.empty((1 << blocks.shift) + 2, dtype=np.int32)
         around = np.empty(max(3 * largest, 1), dtype=np.int32)
         table = np.full(n_vertices, NONE, dtype=np.int32)
-        jobs.append((*blocks, n_vertices, first, around, table, mates, low, high))
+        jobs.append((*blocks, n_vertices, first, around, table, found.mates, found.first_corners, low, high))
     if sum(parallel(_match_blocks.at(n), jobs)):
         raise Defective
-    return mates
+    return found
 
 
 def in_blocks(faces: FaceList) -> Blocks:
@@ -106,7 +130,7 @@ def in_blocks(faces: FaceList) -> Blocks:
     """
     n, n_vertices = faces.n_corners, faces.n_vertices
     pieces = parts(faces.n_faces, n)
-    shift = _block_bits(n_vertices, len(pieces))
+    shift = _block_bits(n_vertices, len(pieces), _MOST_BITS if is_scattered(faces) else _BITS_IN_ORDER)
     n_blocks = (n_vertices >> shift) + 1
     cursors = np.zeros((len(pieces), n_blocks), dtype=np.int32)
     source = (faces.corners, faces.degree, faces.offsets)
@@ -114,17 +138,25 @@ def in_blocks(faces: FaceList) -> Blocks:
     if sum(parallel(_count.at(n), jobs)):
         raise Defective
     starts = _first_places(cursors)
-    streams = np.empty(4 * n, dtype=np.int32)
+    streams = np.empty(4 * n + n // _FEW_EXTERIOR, dtype=np.int32)
     pours = [(*source, shift, row, streams, *piece) for row, piece in zip(cursors, pieces, strict=True)]
     parallel(_distribute.at(n), pours)
     return Blocks(streams, starts, shift)
 
 
-def _block_bits(n_vertices: int, n_parts: int) -> int:
+def is_scattered(faces: FaceList) -> bool:
+    """Whether faces in succession are far apart, by a sample. It decides about time only, not about results."""
+    corners, step = faces.corners, min(faces.degree or 4, 4)
+    sample = np.arange(step, len(corners), len(corners) // _SAMPLE + 1)
+    far = np.abs(corners[sample].astype(np.int64) - corners[sample - step]) >> _BITS_IN_ORDER > 0
+    return bool(2 * np.count_nonzero(far) > len(sample))
+
+
+def _block_bits(n_vertices: int, n_parts: int, most: int) -> int:
     """Blocks of 2^bits vertices: small enough for the cache, not too many, and several for each thread."""
     several = (n_vertices // (8 * n_parts)).bit_length()
     few = ((n_vertices - 1) // _MOST_BLOCKS).bit_length()
-    return max(few, min(several, _MOST_BITS))
+    return max(few, min(several, most))
 
 
 def _first_places(cursors: Ints) -> Ints:
@@ -232,6 +264,7 @@ def _match_blocks(
     around: Any,
     table: Any,
     mates: Any,
+    first_corners: Any,
     low: int,
     high: int,
 ) -> int:
@@ -241,6 +274,8 @@ def _match_blocks(
         base = block << shift
         n = min(n_vertices - base, 1 << shift)
         sort_block(streams, starts[block], starts[block + 1], base, n, first, around)
+        for v in range(n):
+            first_corners[base + v] = around[3 * first[v] + 2] if first[v] < first[v + 1] else NONE
         wrong += _match(first, around, table, mates, n)
     return wrong
 
@@ -321,19 +356,22 @@ def _match_open_fans(around: Any, table: Any, mates: Any, begin: int, end: int) 
     return size
 
 
-def mates_from_twins(faces: FaceList, twins: Ints) -> Ints:
+def mates_from_twins(faces: FaceList, twins: Ints) -> Matches:
     """The same from explicit twins, which are checked: each other's twin, between the same vertices."""
     mates = np.empty(faces.n_corners, dtype=np.int32)
+    first_corners = np.full(faces.n_vertices, NONE, dtype=np.int32)
     wrong = _adopt_twins.at(faces.n_corners)(
-        faces.corners, faces.degree, faces.offsets, twins, mates, faces.n_faces, faces.n_vertices
+        faces.corners, faces.degree, faces.offsets, twins, mates, first_corners, faces.n_faces
     )
     if wrong:
         raise Defective
-    return mates
+    return Matches(mates, first_corners, first_corners[:0])
 
 
 @kernel
-def _adopt_twins(corners: Any, degree: int, offsets: Any, twins: Any, mates: Any, n_faces: int, n_vertices: int) -> int:
+def _adopt_twins(
+    corners: Any, degree: int, offsets: Any, twins: Any, mates: Any, first_corners: Any, n_faces: int
+) -> int:
     wrong = 0
     for f in range(n_faces):
         begin, end = corner_range(degree, offsets, f)
@@ -341,7 +379,7 @@ def _adopt_twins(corners: Any, degree: int, offsets: Any, twins: Any, mates: Any
         for c in range(begin, end):
             twin = twins[c]
             mates[after(c, begin, end)] = twin
-            wrong += corners[c] < 0 or corners[c] >= n_vertices
+            wrong += corners[c] < 0 or corners[c] >= len(first_corners)
             if twin < NONE or twin >= len(twins) or twin == c or (twin >= 0 and twins[twin] != c):
                 wrong += 1
     for f in range(n_faces):  # twins run between the same vertices, the other way
@@ -350,4 +388,7 @@ def _adopt_twins(corners: Any, degree: int, offsets: Any, twins: Any, mates: Any
             twin = twins[c]
             if wrong == 0 and twin >= 0:
                 wrong += corners[twin] != corners[after(c, begin, end)]
+    if wrong == 0:
+        for c in range(len(corners) - 1, -1, -1):  # backwards, so that the first has the last word
+            first_corners[corners[c]] = c
     return wrong

@@ -105,7 +105,7 @@ def _write(t: Topology, faces: FaceList, corner_faces: Ints, halfedges: Ints, co
     n, shape = faces.n_corners, (faces.degree, faces.offsets)
     columns = (arrays.next, arrays.prev, arrays.origin, arrays.face)
     new = [column[base : base + len(corners)] for column in columns]
-    sources = (faces.corners, *shape, corner_faces, halfedges, corners)
+    sources = (*shape, corner_faces, halfedges, faces.corners, corners)
     old = (*shape, halfedges, arrays.next, arrays.prev, arrays.face, arrays.face_halfedge, base, first_face)
     jobs: list[tuple[Any, ...]] = [
         (write_halfedges.at(n), *sources, *new, first_face, *piece) for piece in parts(len(corners) // 2, n)

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from halfmesh._jit import Kernel, kernel
 from halfmesh.core.circulation import face_halfedges, outgoing
+from halfmesh.core.circulation import face_vertices as face_corners
 from halfmesh.core.navigation import (
     edge_slots,
     face_of,
@@ -26,7 +27,7 @@ from halfmesh.core.navigation import (
     target_of,
     vertex_slots,
 )
-from halfmesh.core.topology import DELETED, Topology
+from halfmesh.core.topology import DELETED, EDGE_SLOTS, FACE_SLOTS, N_DEAD_EDGES, N_EXTERIOR, Topology
 
 __all__ = [
     "corner_halfedges",
@@ -35,6 +36,7 @@ __all__ = [
     "face_degrees",
     "face_neighbors",
     "face_vertices",
+    "is_wire",
     "triangles",
     "vertex_degrees",
     "vertex_faces",
@@ -57,13 +59,12 @@ def face_degrees(t: Topology) -> Ints:
 
 def corner_halfedges(t: Topology) -> Table:
     """The halfedges of each face, from its first corner: (halfedges, offsets)."""
-    return _filled(t, face_degrees(t), _fill_face_halfedges)
+    return _around_faces(t, _fill_face_halfedges)
 
 
 def face_vertices(t: Topology) -> Table:
     """The vertices of each face, as they were listed."""
-    halfedges, offsets = corner_halfedges(t)
-    return t.origin[halfedges], offsets
+    return _around_faces(t, _fill_face_vertices)
 
 
 def vertex_neighbors(t: Topology) -> Table:
@@ -92,6 +93,13 @@ def edge_vertices(t: Topology) -> Ints:
 def edge_faces(t: Topology) -> Ints:
     """The faces left and right of each edge, shape (n, 2); -1 where there is none."""
     return _of_edges(t, _fill_sides)
+
+
+def is_wire(t: Topology) -> NDArray[np.bool_]:
+    """Whether there is no face on either side of each edge; True for deleted edges."""
+    table = np.empty(edge_slots(t), dtype=np.bool_)
+    _fill_wire.at(len(table))(t, table)
+    return table
 
 
 def triangles(t: Topology) -> Ints:
@@ -143,13 +151,45 @@ def _fill_rings(t: Any, halfedges: Any) -> None:
 
 
 @kernel
-def _fill_face_halfedges(t: Any, halfedges: Any) -> None:
+def _fill_wire(t: Any, table: Any) -> None:
+    for e in range(len(table)):
+        h = halfedge_of_edge(t, e)
+        table[e] = face_of(t, h) < 0 and opposite_face_of(t, h) < 0
+
+
+def _around_faces(t: Topology, fill: Callable[..., Any]) -> Table:
+    counts = t.__views__().counts
+    n_corners = 2 * (counts[EDGE_SLOTS] - counts[N_DEAD_EDGES]) - counts[N_EXTERIOR]
+    corners = np.empty(n_corners, dtype=np.int32)
+    offsets = np.empty(counts[FACE_SLOTS] + 1, dtype=np.int32)
+    fill.at(n_corners)(t, corners, offsets)  # type: ignore[attr-defined]
+    return corners, offsets
+
+
+@kernel
+def _fill_face_halfedges(t: Any, corners: Any, offsets: Any) -> None:
     place = 0
+    offsets[0] = 0
     for f in range(face_slots(t)):
         if halfedge_of_face(t, f) >= 0:
             for h in face_halfedges(t, f):
-                halfedges[place] = h
-                place += 1
+                if place < len(corners):  # a mesh that breaks its laws may have more
+                    corners[place] = h
+                    place += 1
+        offsets[f + 1] = place
+
+
+@kernel
+def _fill_face_vertices(t: Any, corners: Any, offsets: Any) -> None:
+    place = 0
+    offsets[0] = 0
+    for f in range(face_slots(t)):
+        if halfedge_of_face(t, f) >= 0:
+            for v in face_corners(t, f):
+                if place < len(corners):
+                    corners[place] = v
+                    place += 1
+        offsets[f + 1] = place
 
 
 def _without_gaps(faces: Ints, offsets: Ints) -> Table:

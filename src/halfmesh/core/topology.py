@@ -47,6 +47,7 @@ __all__ = [
     "Arrays",
     "Topology",
     "empty_columns",
+    "topology_at",
 ]
 
 Ints = NDArray[np.int32]
@@ -72,6 +73,7 @@ FIELDS = COLUMNS + SCRATCH
 FEW = 16  # corners of a face for which there is room twice
 _ROOM_FOR_JOURNAL = 2**17  # ints that are kept for the next transaction: 1 MB
 _CARRIER = _jit.declare_carrier("Topology", FIELDS)
+topology_at = _CARRIER.at(*[("i4", 1)] * 6, ("i8", 1), ("i8", 1), ("i4", 1), ("f8", 1), ("i8", 1))
 
 
 class Arrays:
@@ -305,11 +307,17 @@ class Topology:
         arrays.counts[NEWS] &= ~REPLACED
 
 
-def empty_columns(n_vertices: int, n_edges: int, n_faces: int) -> Arrays:
-    """Columns of these sizes with their counts set and their contents not."""
+def empty_columns(n_vertices: int, n_edges: int, n_faces: int, room: Any = None) -> Arrays:
+    """Columns of these sizes with their counts set and their contents not.
+
+    Those of halfedges lie in `room`, an array of int32, if they fit.
+    """
     arrays = Arrays()
-    for name in ("next", "prev", "origin", "face"):
-        setattr(arrays, name, np.empty(max(2 * n_edges, 2), dtype=np.int32))
+    size = max(2 * n_edges, 2)
+    if room is None or len(room) < 4 * size:
+        room = np.empty(4 * size, dtype=np.int32)
+    for i, name in enumerate(("next", "prev", "origin", "face")):
+        setattr(arrays, name, room[i * size : (i + 1) * size])
     arrays.vertex_halfedge = np.empty(max(n_vertices, 1), dtype=np.int32)
     arrays.face_halfedge = np.empty(max(n_faces, 1), dtype=np.int32)
     arrays.counts = np.zeros(N_COUNTS, dtype=np.int64)

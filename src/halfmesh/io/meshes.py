@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from halfmesh.core.tables import is_wire
 from halfmesh.errors import InvalidMeshError
 from halfmesh.io.data import MeshData
 from halfmesh.mesh.mesh import Mesh
@@ -50,8 +51,9 @@ def data_of(mesh: Mesh) -> MeshData:
         mesh.compact()
     indices, offsets = mesh.face_vertices()
     data = MeshData(indices, offsets, mesh.points)
-    lines = _is_line(mesh)
-    data.edges = mesh.edge_vertices()[lines]
+    lines = np.flatnonzero(_is_line(mesh))
+    if len(lines):
+        data.edges = mesh.edge_vertices()[lines]
     data.edge = {name: values[lines] for name, values in mesh.edge_data.items() if name != LINE}
     data.vertex = {name: values for name, values in mesh.vertex_data.items() if name not in _OWN}
     data.face = dict(mesh.face_data.items())
@@ -92,7 +94,7 @@ def _keys(pairs: NDArray[Any], n_vertices: int) -> NDArray[np.int64]:
 
 
 def _is_line(mesh: Mesh) -> NDArray[np.bool_]:
-    wire = np.asarray((mesh.edge_faces() < 0).all(axis=1))
+    wire = is_wire(mesh.topology)
     if LINE in mesh.edge_data and mesh.edge_data[LINE].dtype == bool:
         wire = wire | mesh.edge_data[LINE]
     return wire

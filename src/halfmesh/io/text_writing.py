@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from halfmesh._jit import kernel, n_threads, parallel
+from halfmesh._jit import in_succession, kernel
 from halfmesh.io.numbers import REACH, powers_of_ten
 from halfmesh.io.shortest import (
     MOST_BYTES,
@@ -81,9 +81,9 @@ def row_text(table: Table) -> Iterator[memoryview]:
     first, second = (*table.prefix, 0, 0)[:2]
     form = (table.width, first, second, table.dotted, table.optional)
 
-    def block(begin: int, end: int) -> memoryview:
-        out = np.empty((end - begin) * (table.width * MOST_BYTES + 4) + _SLACK, dtype=np.uint8)
-        return _filled(out, begin, end, lambda *place: run(values, *form, *place, powers), table.text)
+    def block(buffers: list[Bytes], begin: int, end: int) -> tuple[Bytes, int]:
+        out = _buffer(buffers, (end - begin) * (table.width * MOST_BYTES + 4))
+        return out, _filled(out, begin, end, lambda *place: run(values, *form, *place, powers), table.text)
 
     yield from _blocks(block, table.n_rows)
 
@@ -140,30 +140,42 @@ def face_text(corners: Corners, begin: int, end: int) -> Iterator[memoryview]:
     form = (corners.base, corners.prefix[0] if corners.prefix else 0, n_colors, corners.dotted)
     each = _INDEX_BYTES * (1 + (len(corners.textures) > 0) + (len(corners.normals) > 0))
 
-    def block(low: int, high: int) -> memoryview:
+    def block(buffers: list[Bytes], low: int, high: int) -> tuple[Bytes, int]:
         low, high = begin + low, begin + high
         n_corners = int(corners.offsets[high] - corners.offsets[low])
-        out = np.empty(n_corners * each + (high - low) * (MOST_BYTES * (n_colors + 1)) + _SLACK, dtype=np.uint8)
-        return _filled(out, low, high, lambda *place: run(*columns, colors, *form, *place, powers), corners.text)
+        out = _buffer(buffers, n_corners * each + (high - low) * (MOST_BYTES * (n_colors + 1)))
+        return out, _filled(out, low, high, lambda *place: run(*columns, colors, *form, *place, powers), corners.text)
 
     yield from _blocks(block, end - begin)
 
 
-def _blocks(block: Callable[[int, int], memoryview], n: int) -> Iterator[memoryview]:
-    """A few blocks at a time: the text of a large mesh is never in memory as a whole."""
-    ranges = [(begin, min(begin + _BLOCK, n)) for begin in range(0, n, _BLOCK)]
-    step = 4 * n_threads()
-    for i in range(0, len(ranges), step):
-        yield from parallel(block, list(ranges[i : i + step]))
+def _blocks(block: Callable[..., tuple[Bytes, int]], n: int) -> Iterator[memoryview]:
+    """A few blocks ahead of the file: the text of a large mesh is never in memory as a whole.
+
+    What was written to the file is written over by later blocks: new pages would cost an eighth of the whole.
+    """
+    buffers: list[Bytes] = []
+    jobs = [(buffers, begin, min(begin + _BLOCK, n)) for begin in range(0, n, _BLOCK)]
+    for out, size in in_succession(block, jobs):
+        yield memoryview(out)[:size]  # type: ignore[arg-type]
+        buffers.append(out)
 
 
-def _filled(out: Bytes, begin: int, end: int, run: Callable[..., None], by_hand: Callable[[int], bytes]) -> memoryview:
+def _buffer(buffers: list[Bytes], size: int) -> Bytes:
+    try:
+        out = buffers.pop()  # which is safe among threads
+    except IndexError:
+        out = np.empty(0, dtype=np.uint8)
+    return out if len(out) >= size + _SLACK else np.empty(size + _SLACK, dtype=np.uint8)
+
+
+def _filled(out: Bytes, begin: int, end: int, run: Callable[..., None], by_hand: Callable[[int], bytes]) -> int:
     state = np.array([begin, 0], dtype=np.int64)  # row, byte
     while True:
         run(end, out, state)
         row, at = state.tolist()
         if row == end:
-            return memoryview(out)[:at]  # type: ignore[arg-type]
+            return at  # type: ignore[no-any-return]
         text = by_hand(row)
         out[at : at + len(text)] = np.frombuffer(text, dtype=np.uint8)
         state[:] = row + 1, at + len(text)

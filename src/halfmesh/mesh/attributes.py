@@ -18,9 +18,10 @@ from halfmesh.errors import InvalidMeshError
 from halfmesh.mesh.keeping import Keeper
 from halfmesh.mesh.policies import Policy, checked_policy, default_policy, replay
 
-__all__ = ["AttributeTable", "Column"]
+__all__ = ["AttributeTable", "Column", "positions_at"]
 
 _CARRIER = _jit.declare_carrier("Column", ("values", "default"), growing=_jit.filled)
+positions_at = _CARRIER.at(("f8", 2), ("f8", 2))
 
 
 class Column:
@@ -263,6 +264,7 @@ class AttributeTable(MutableMapping[str, NDArray[Any]]):
         if name in self._required:
             raise KeyError(f"{name!r} always exists")
         self._found(name)
+        self._forget_compiled()
         del self._columns[name]
         self._tell(bool(self._columns))
 
@@ -287,8 +289,14 @@ class AttributeTable(MutableMapping[str, NDArray[Any]]):
     def _set(self, name: str, column: Column) -> None:
         if not isinstance(name, str) or not name:
             raise KeyError(f"an attribute's name is a non-empty string, not {name!r}")
+        self._forget_compiled()
         self._columns[name] = column
         self._tell(True)
+
+    def _forget_compiled(self) -> None:
+        """Before there are other columns: by that, who holds a compiled form of one (`desk`) sees it is out of date."""
+        for column in self._columns.values():
+            column.forget_compiled()
 
     def _is_followed(self, args: tuple[Any, ...]) -> bool:
         """Whether any attribute is not among the arguments of a kernel, and so has to follow by its notes."""
@@ -315,6 +323,7 @@ class AttributeTable(MutableMapping[str, NDArray[Any]]):
     def _permute(self, new_of_old: NDArray[np.int32]) -> None:
         """Keep the rows of the living, after compaction."""
         living = np.flatnonzero(new_of_old >= 0)
+        self._forget_compiled()
         for name, column in self._columns.items():
             column.reach(len(new_of_old))
             self._columns[name] = Column(column.values[living], column.default, column.policy)
@@ -379,6 +388,7 @@ class AttributeTable(MutableMapping[str, NDArray[Any]]):
         self._adopt(keeper.put_back(n_written))
 
     def _adopt(self, columns: dict[str, Column]) -> None:
+        self._forget_compiled()
         self._columns = columns
         self._tell(bool(columns))
 

@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING, Any
 from halfmesh._jit import declared
 from halfmesh.core import circulation, navigation
 from halfmesh.mesh.handles import Element, made, step
+from halfmesh.mesh.positions import as_point
 
 if TYPE_CHECKING:
     import numpy as np
@@ -39,14 +40,17 @@ class Vertex(Element):
 
     @property
     def point(self) -> NDArray[np.float64]:
-        """Its position, shape (3,): a view, writing into it moves the vertex."""
+        """Its position, shape (3,): a view, writing into it moves the vertex.
+
+        Assigned may be what :meth:`Mesh.add_vertex` takes: three finite numbers, or two with z = 0.
+        """
         self._check()
         row: NDArray[np.float64] = self._t.vertex_data.row("points", self.index)
         return row
 
     @point.setter
     def point(self, point: Any) -> None:
-        self.point[:] = point
+        self.point[:] = as_point(point)
 
     @property
     def degree(self) -> int:

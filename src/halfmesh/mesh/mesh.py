@@ -127,6 +127,7 @@ class Mesh(Editable, Undoable):
         self._topology = topology
         self._cache: dict[str, tuple[int, Any]] = {}
         self._savepoints = []
+        self._desk = None
         self._numbers = None
         counts = topology.__views__().counts
         self.vertex_data = AttributeTable("vertex", lambda: counts[VERTEX_SLOTS], ("points",), _noted(counts, VERTICES))
@@ -244,7 +245,7 @@ def _topology(faces: FaceList, twins: ArrayLike | None) -> Topology:
     if given is not None and len(given) != faces.n_corners:
         raise InvalidMeshError(f"twins has {len(given)} entries for {faces.n_corners} corners", reason="bad_twins")
     try:
-        topology, _ = construct(faces, given)
+        topology = construct(faces, given)
     except Defective:
         from halfmesh.core.diagnosis import explain, explain_twins  # 4 ms of an import, for what fails only
 

@@ -7,7 +7,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from halfmesh.errors import InvalidMeshError
 
-__all__ = ["as_points"]
+__all__ = ["as_point", "as_points"]
 
 
 def as_points(points: ArrayLike) -> NDArray[np.float64]:
@@ -29,3 +29,19 @@ def as_points(points: ArrayLike) -> NDArray[np.float64]:
     made = np.zeros((len(array), 3))
     made[:, :2] = array
     return made
+
+
+def as_point(point: ArrayLike) -> NDArray[np.float64]:
+    """Three finite numbers, or two with z = 0."""
+    try:
+        given = np.asarray(point)
+    except ValueError as error:
+        raise InvalidMeshError(f"{point!r} is no point: {error}", reason="bad_points") from None
+    if given.dtype.kind not in "iuf" or isinstance(point, np.ma.MaskedArray):
+        raise InvalidMeshError(f"{point!r} is no point: it takes real numbers", reason="bad_points")
+    array = given.astype(np.float64)
+    if array.shape not in ((2,), (3,)):
+        raise InvalidMeshError(f"a point has 2 or 3 coordinates; got shape {array.shape}", reason="bad_points")
+    if not np.isfinite(array).all():
+        raise InvalidMeshError(f"a point must be finite; got {array.tolist()}", reason="bad_points")
+    return array if len(array) == 3 else np.append(array, 0.0)

@@ -54,6 +54,8 @@ class _Savepoint:
 
     def __init__(self, mesh: Undoable, include_held: bool) -> None:
         mesh._topology.catch_up_late()
+        if mesh._desk is not None:
+            mesh._desk.close()
         counts = mesh._topology.__arrays__().counts
         tables = mesh._tables()
         keepers = [table._keeper_from_now(1 << place, include_held) for place, table in enumerate(tables)]

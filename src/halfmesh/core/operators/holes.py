@@ -57,7 +57,9 @@ def try_make_hole(t: Any, f: int) -> int:
 @operation
 def fill_hole_status(t: Any, h: int) -> int:
     """Whether a face may be laid along the hole of `h`: ``OK`` or a code. Cost: O(1)."""
-    return OK if is_exterior(t, h) else NOT_EXTERIOR
+    if not is_exterior(t, h):
+        return NOT_EXTERIOR
+    return TOO_LARGE if is_full(t, 0, 0, 1) else OK
 
 
 @kernel
@@ -94,8 +96,6 @@ def try_fill_hole(t: Any, h: int) -> int:
     status = halfedge_status(t, h)
     if status == OK:
         status = fill_hole_status(t, h)
-    if status == OK and is_full(t, 0, 0, 1):
-        status = TOO_LARGE
     return -status if status != OK else fill_hole(t, h)
 
 
@@ -111,7 +111,7 @@ def add_face_to_boundary_status(t: Any, h: int, g: int, allow_parallel: bool = F
             return WOULD_BE_LOOP
         if is_joined(t, h, origin_of(t, g)):
             return WOULD_BE_PARALLEL
-    return status
+    return TOO_LARGE if status == OK and is_full(t, 0, 1, 1) else status
 
 
 @kernel
@@ -141,15 +141,14 @@ def try_add_face_to_boundary(t: Any, h: int, g: int, allow_parallel: bool) -> in
     status = both_status(t, h, g)
     if status == OK:
         status = add_face_to_boundary_status(t, h, g, allow_parallel)
-    if status == OK and is_full(t, 0, 1, 1):
-        status = TOO_LARGE
     return -status if status != OK else add_face_to_boundary(t, h, g)
 
 
 @operation
 def add_vertex_and_face_to_boundary_status(t: Any, h: int, g: int) -> int:
     """Whether a face may be laid from `h` to `g` through a new vertex: ``OK`` or a code. Cost: the sides between."""
-    return _between_status(t, h, g)
+    status = _between_status(t, h, g)
+    return TOO_LARGE if status == OK and is_full(t, 1, 2, 1) else status
 
 
 @kernel
@@ -178,8 +177,6 @@ def try_add_vertex_and_face_to_boundary(t: Any, h: int, g: int) -> int:
     status = both_status(t, h, g)
     if status == OK:
         status = add_vertex_and_face_to_boundary_status(t, h, g)
-    if status == OK and is_full(t, 1, 2, 1):
-        status = TOO_LARGE
     return -status if status != OK else add_vertex_and_face_to_boundary(t, h, g)
 
 

@@ -62,7 +62,9 @@ __all__ = [
 @operation
 def open_edge_status(t: Any, h: int) -> int:
     """Whether the edge of `h` may be opened: ``OK`` or a code. Cost: O(1)."""
-    return BOUNDARY_EDGE if is_exterior(t, h) or is_exterior(t, h ^ 1) else OK
+    if is_exterior(t, h) or is_exterior(t, h ^ 1):
+        return BOUNDARY_EDGE
+    return TOO_LARGE if is_full(t, 0, 1, 0) else OK
 
 
 @kernel
@@ -109,8 +111,6 @@ def try_open_edge(t: Any, h: int) -> int:
     status = halfedge_status(t, h)
     if status == OK:
         status = open_edge_status(t, h)
-    if status == OK and is_full(t, 0, 1, 0):
-        status = TOO_LARGE
     return -status if status != OK else open_edge(t, h)
 
 

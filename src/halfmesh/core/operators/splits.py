@@ -148,9 +148,10 @@ def split_edge_triangular_status(t: Any, h: int, allow_parallel: bool = False) -
             c = origin_of(t, prev_of(t, side))
             if not allow_parallel and (c == origin_of(t, h) or c == origin_of(t, o)):
                 return WOULD_BE_PARALLEL
-    if not allow_parallel and face_of(t, h) >= 0 and face_of(t, o) >= 0:
-        return WOULD_BE_PARALLEL if origin_of(t, prev_of(t, h)) == origin_of(t, prev_of(t, o)) else OK
-    return OK
+    has_two = face_of(t, h) >= 0 and face_of(t, o) >= 0
+    if not allow_parallel and has_two and origin_of(t, prev_of(t, h)) == origin_of(t, prev_of(t, o)):
+        return WOULD_BE_PARALLEL
+    return TOO_LARGE if is_full(t, 1, 3, 2) else OK
 
 
 @kernel
@@ -182,8 +183,6 @@ def try_split_edge_triangular(t: Any, h: int, weight: float, allow_parallel: boo
     status = halfedge_status(t, h)
     if status == OK:
         status = split_edge_triangular_status(t, h, allow_parallel)
-    if status == OK and is_full(t, 1, 3, 2):
-        status = TOO_LARGE
     return -status if status != OK else split_edge_triangular(t, h, weight)
 
 
@@ -283,7 +282,7 @@ def connect_status(t: Any, h: int, g: int, allow_parallel: bool = False) -> int:
             return WOULD_BE_LOOP
         if is_joined(t, h, origin_of(t, g)):
             return WOULD_BE_PARALLEL
-    return OK
+    return TOO_LARGE if is_full(t, 0, 1, 1) else OK
 
 
 @kernel
@@ -331,8 +330,6 @@ def try_connect(t: Any, h: int, g: int, allow_parallel: bool) -> int:
     status = both_status(t, h, g)
     if status == OK:
         status = connect_status(t, h, g, allow_parallel)
-    if status == OK and is_full(t, 0, 1, 1):
-        status = TOO_LARGE
     return -status if status != OK else connect(t, h, g)
 
 

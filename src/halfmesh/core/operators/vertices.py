@@ -50,7 +50,9 @@ __all__ = [
 @operation
 def split_vertex_status(t: Any, h: int, g: int) -> int:
     """Whether the vertex may be split at the corners of `h` and `g`: ``OK`` or a code. Cost: O(1)."""
-    return OK if origin_of(t, h) == origin_of(t, g) else DIFFERENT_VERTICES
+    if origin_of(t, h) != origin_of(t, g):
+        return DIFFERENT_VERTICES
+    return TOO_LARGE if is_full(t, 1, 1, 0) else OK
 
 
 @kernel
@@ -112,8 +114,6 @@ def try_split_vertex(t: Any, h: int, g: int) -> int:
     status = both_status(t, h, g)
     if status == OK:
         status = split_vertex_status(t, h, g)
-    if status == OK and is_full(t, 1, 1, 0):
-        status = TOO_LARGE
     return -status if status != OK else split_vertex(t, h, g)
 
 

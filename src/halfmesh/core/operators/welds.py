@@ -117,7 +117,9 @@ def unweld_status(t: Any, a: int, b: int) -> int:
         return NOT_EXTERIOR
     if a == b:
         return SAME_CORNER
-    return OK if origin_of(t, a) == origin_of(t, b) else DIFFERENT_VERTICES
+    if origin_of(t, a) != origin_of(t, b):
+        return DIFFERENT_VERTICES
+    return TOO_LARGE if is_full(t, 1, 0, 0) else OK
 
 
 @kernel
@@ -145,8 +147,6 @@ def try_unweld(t: Any, a: int, b: int) -> int:
     status = both_status(t, a, b)
     if status == OK:
         status = unweld_status(t, a, b)
-    if status == OK and is_full(t, 1, 0, 0):
-        status = TOO_LARGE
     return -status if status != OK else unweld(t, a, b)
 
 

@@ -12,14 +12,16 @@ from halfmesh.core.topology import NEWS
 from halfmesh.errors import ElementError, InvalidMeshError, StaleElementError, TopologyError
 from halfmesh.mesh.asking import Asked
 from halfmesh.mesh.elements import Edge, Element, Halfedge, Vertex
+from halfmesh.mesh.positions import as_point
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
     from numpy.typing import ArrayLike, NDArray
 
+    from halfmesh.mesh.desk import Desk
 
-__all__ = ["TABLES", "Base", "as_fraction", "as_point", "as_xyz"]
+__all__ = ["TABLES", "Base", "as_fraction"]
 
 E = TypeVar("E", bound=Element)
 
@@ -33,6 +35,7 @@ class Base(Asked):
 
     has_points: bool
     _savepoints: list[Any]
+    _desk: Desk | None  # once an operator has a native here
 
     def _index(self, kind: type[Element], element: Any) -> int:
         """The index of a handle or an int. Whether there is such an element, alive, the kernel asks."""
@@ -93,41 +96,6 @@ class Base(Asked):
         if self._t.counts[NEWS]:
             self._catch_up()
         return result
-
-    def _act_at(
-        self,
-        operation: Operation[Any, Any],
-        placing: Operation[Any, Any] | None,
-        element: int,
-        weight: float | None,
-        point: ArrayLike | None,
-        *more: Any,
-    ) -> int:
-        """Run an operator that makes or moves a vertex, with the points in the same call where that is possible."""
-        columns = self.vertex_data._columns
-        column, carrier = columns["points"], self._topology.lowered
-        if placing is None or operation.quick is None or carrier is None or self._savepoints or column.policy != "lerp":
-            args: tuple[Any, ...] = (element,) if weight is None else (element, weight, *more)
-            return self._act_and_place(operation, args, point)
-        x, y, z = (0.0, 0.0, 0.0) if point is None else as_xyz(point)
-        points, quick = column.lowered or column.__compiled__(), placing.quick
-        args = (carrier, points, len(columns) == 1, point is not None, x, y, z, element, weight or 0.0)
-        try:
-            if quick is None:
-                _as_int64(element)
-                v: int = placing.compiled(*args)
-                placing.quick = placing.entry(*args)
-            else:
-                v = quick(*args)
-        except OverflowError:
-            return -MISSING_ELEMENT
-        if self._t.counts[NEWS]:
-            column.catch_up()
-            self._topology.catch_up(compiled=True)
-            self._follow((column,))
-        if point is not None and v >= 0:
-            self.has_points = True
-        return v
 
     def _act_and_place(self, operation: Operation[Any, Any], args: tuple[Any, ...], point: ArrayLike | None) -> int:
         place = None if point is None else as_point(point)
@@ -212,41 +180,8 @@ def as_fraction(at: float) -> float:
         return at
     try:
         is_fraction = bool(0.0 <= at <= 1.0)  # which NaN is not
-    except ValueError:  # several numbers
+    except (TypeError, ValueError):  # no number, or several
         is_fraction = False
     if not is_fraction:
         raise InvalidMeshError(f"at={at!r} is no place on the edge: it runs from 0 to 1", reason="bad_parameter")
     return float(at)
-
-
-def as_xyz(point: ArrayLike) -> tuple[float, float, float]:
-    """The same as three floats: quickly, where they are such already."""
-    given: Any = point.tolist() if type(point) is np.ndarray else point
-    kind = type(given)
-    if kind is list or kind is tuple:
-        try:
-            x, y, z = given
-            if type(x) is float and type(y) is float and type(z) is float:
-                total = x + y + z
-                if total - total == 0.0:  # which infinity and NaN are not
-                    return x, y, z
-        except ValueError:  # other than three
-            pass
-    x, y, z = as_point(point).tolist()
-    return x, y, z
-
-
-def as_point(point: ArrayLike) -> NDArray[np.float64]:
-    """Three finite numbers, or two with z = 0."""
-    try:
-        given = np.asarray(point)
-    except ValueError as error:
-        raise InvalidMeshError(f"{point!r} is no point: {error}", reason="bad_points") from None
-    if given.dtype.kind not in "iuf" or isinstance(point, np.ma.MaskedArray):
-        raise InvalidMeshError(f"{point!r} is no point: it takes real numbers", reason="bad_points")
-    array = given.astype(np.float64)
-    if array.shape not in ((2,), (3,)):
-        raise InvalidMeshError(f"a point has 2 or 3 coordinates; got shape {array.shape}", reason="bad_points")
-    if not np.isfinite(array).all():
-        raise InvalidMeshError(f"a point must be finite; got {array.tolist()}", reason="bad_points")
-    return array if len(array) == 3 else np.append(array, 0.0)

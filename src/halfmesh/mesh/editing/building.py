@@ -27,9 +27,9 @@ from halfmesh.core.operators.faces import (
 )
 from halfmesh.core.search import find_halfedge
 from halfmesh.core.statuses import LOOP_EDGE, MISSING_ELEMENT
-from halfmesh.core.topology import NEWS
-from halfmesh.mesh.editing.base import Base, as_xyz
-from halfmesh.mesh.editing.placing import try_add_vertex_at
+from halfmesh.mesh.desk import natively
+from halfmesh.mesh.editing import natives
+from halfmesh.mesh.editing.base import Base
 from halfmesh.mesh.elements import Edge, Element, Face, Halfedge, Vertex
 
 if TYPE_CHECKING:
@@ -39,12 +39,11 @@ if TYPE_CHECKING:
 
 __all__ = ["Building"]
 
-_new: Any = object.__new__  # `made`, where a call more counts
-
 
 class Building(Base):
     """The operations of a general half-edge mesh: wire, loops, parallel edges and faces, as they come."""
 
+    @natively(natives.add_vertex, try_add_vertex)
     def add_vertex(self, point: ArrayLike | None = None) -> Vertex:
         """Add an isolated vertex.
 
@@ -74,27 +73,11 @@ class Building(Base):
         >>> mesh.add_vertex([1, 2, 3]).point.tolist()
         [1.0, 2.0, 3.0]
         """
-        if point is None:
-            v = self._act(try_add_vertex)
-        else:
-            x, y, z = as_xyz(point)
-            column = self.vertex_data._columns["points"]
-            quick, carrier, points = try_add_vertex_at.quick, self._topology.lowered, column.lowered
-            if quick is None or carrier is None or points is None:
-                v = self._act_slowly(try_add_vertex_at, (column, x, y, z))
-            else:
-                v = quick(carrier, points, x, y, z)
-                if self._t.counts[NEWS]:
-                    column.catch_up()
-                    self._catch_up()
+        v = self._act_and_place(try_add_vertex, (), point)
         if v < 0:
             self._refuse("add", v, ("a", "vertex"))
-        if point is not None:
-            self.has_points = True
-        vertex: Vertex = _new(Vertex)
-        vertex._t = self._t
-        vertex.index = v
-        return vertex
+        self.vertex_data._columns["points"].reach(v + 1)  # the native leaves that to this method
+        return self._made(Vertex, v)
 
     def add_edge(
         self,
@@ -195,6 +178,7 @@ class Building(Base):
         h, g = self._living(Halfedge, arriving), self._living(Halfedge, leaving)
         return self._act_on_two(make_adjacent_status, h, g) == 0
 
+    @natively(natives.add_face, try_add_triangle)
     def add_face(
         self, vertices: Iterable[Vertex | int] | None = None, *, halfedges: Iterable[Halfedge | int] | None = None
     ) -> Face:
@@ -236,34 +220,19 @@ class Building(Base):
         if vertices is None or halfedges is not None:
             return self._add_face_along(vertices, halfedges)
         corners = vertices if type(vertices) is list or type(vertices) is tuple else list(vertices)
-        t = self._t
         try:
-            if len(corners) == 3:  # by the million: without a loop, a list, an array, or a call but one
-                a, b, c = corners
-                a = a.index if type(a) is Vertex and a._t is t else a if type(a) is int else self._index(Vertex, a)
-                b = b.index if type(b) is Vertex and b._t is t else b if type(b) is int else self._index(Vertex, b)
-                c = c.index if type(c) is Vertex and c._t is t else c if type(c) is int else self._index(Vertex, c)
-                quick, carrier = try_add_triangle.quick, self._topology.lowered
-                if quick is None or carrier is None:
-                    f = self._act_slowly(try_add_triangle, (a, b, c))
-                else:
-                    f = quick(carrier, a, b, c)
-                    if t.counts[NEWS]:
-                        self._catch_up()
+            indices = [self._index(Vertex, v) for v in corners]
+            if len(indices) == 3:
+                f = self._act(try_add_triangle, *indices)
+            elif len(indices) == 4:
+                f = self._act(try_add_quad, *indices)
             else:
-                indices = [self._index(Vertex, v) for v in corners]
-                if len(indices) == 4:
-                    f = self._act(try_add_quad, *indices)
-                else:
-                    f = self._act(try_add_face_of_vertices, np.array(indices, dtype=np.int64))
+                f = self._act(try_add_face_of_vertices, np.array(indices, dtype=np.int64))
         except (OverflowError, ValueError):  # no index is so large: no int64, or no item of a memoryview
             f = -MISSING_ELEMENT
         if f < 0:
             self._refuse_face(Vertex, corners, f)
-        face: Face = _new(Face)
-        face._t = t
-        face.index = f
-        return face
+        return self._made(Face, f)
 
     def _add_face_along(self, vertices: Any, halfedges: Iterable[Halfedge | int] | None) -> Face:
         if vertices is not None or halfedges is None:

@@ -32,7 +32,7 @@ class Bulk(Base):
         Parameters
         ----------
         points : (n, 3) or (n, 2) array_like of float, or int
-            Their positions; or how many, at zero.
+            Their positions, which needn't be finite, as in ``Mesh(faces, points)``; or how many, at zero.
 
         Returns
         -------

@@ -13,8 +13,9 @@ from halfmesh.core.operators.holes import (
     try_fill_hole,
     try_make_hole,
 )
-from halfmesh.mesh.editing.base import Base, as_point
+from halfmesh.mesh.editing.base import Base
 from halfmesh.mesh.elements import Face, Halfedge, Vertex
+from halfmesh.mesh.positions import as_point
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike

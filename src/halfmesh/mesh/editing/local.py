@@ -12,10 +12,11 @@ from halfmesh.core.operators.splits import (
     try_split_edge_triangular,
     try_split_face,
 )
-from halfmesh.core.statuses import DELETED_ELEMENT, MISSING_ELEMENT
-from halfmesh.core.topology import NEWS
+from halfmesh.core.slots import is_full
+from halfmesh.core.statuses import DELETED_ELEMENT
+from halfmesh.mesh.desk import ASK, TRY, natively
+from halfmesh.mesh.editing import natives
 from halfmesh.mesh.editing.base import Base, as_fraction
-from halfmesh.mesh.editing.placing import collapse_at, split_edge_at, split_edge_triangular_at, split_face_at
 from halfmesh.mesh.elements import Edge, Face, Halfedge, Vertex
 
 if TYPE_CHECKING:
@@ -27,10 +28,12 @@ __all__ = ["Local"]
 class Local(Base):
     """Flips, splits and collapses."""
 
+    @natively(natives.flip, flip_status, ASK)
     def can_flip(self, edge: Edge | int, *, allow_parallel: bool = False) -> bool:
         """Whether :meth:`flip` would turn the edge. O(degree)."""
         return self._act_on_two(flip_status, self._living(Edge, edge), allow_parallel) == 0
 
+    @natively(natives.flip, try_flip)
     def flip(self, edge: Edge | int, *, allow_parallel: bool = False) -> None:
         r"""Turn an edge counter-clockwise inside its two faces: each end moves on to the next corner.
 
@@ -74,6 +77,7 @@ class Local(Base):
         if code < 0:
             self._refuse("flip", code, ("edge", e))
 
+    @natively(natives.flip, try_flip, TRY)
     def try_flip(self, edge: Edge | int, *, allow_parallel: bool = False) -> bool:
         """Turn the edge as :meth:`flip` does, if that may be: whether it was turned.
 
@@ -86,17 +90,8 @@ class Local(Base):
         >>> [mesh.try_flip(e) for e in mesh.edges]
         [True, False, False, False, False]
         """
-        e = edge.index if type(edge) is Edge and edge._t is self._t else self._index(Edge, edge)
-        quick, carrier = try_flip.quick, self._topology.lowered
-        if quick is None or carrier is None:
-            code = self._act_slowly(try_flip, (e, allow_parallel))
-        else:  # what `_act_on_two` does, without its call: 40 ns of 280
-            try:
-                code = quick(carrier, e, allow_parallel)
-            except OverflowError:
-                code = -MISSING_ELEMENT
-            if self._t.counts[NEWS]:
-                self._catch_up()
+        e = self._index(Edge, edge)
+        code = self._act_on_two(try_flip, e, allow_parallel)
         if code < -DELETED_ELEMENT:
             return False
         if code < 0:
@@ -105,6 +100,7 @@ class Local(Base):
 
     # -- splits ----------------------------------------------------------------------------------------------------
 
+    @natively(natives.split_edge, try_split_edge)
     def split_edge(self, edge: Edge | Halfedge | int, point: ArrayLike | None = None, *, at: float = 0.5) -> Vertex:
         r"""Put a vertex into an edge. The faces beside it gain a corner.
 
@@ -146,20 +142,21 @@ class Local(Base):
         >>> v.degree, mesh.n_edges, [f.degree for f in v.faces()]
         (2, 13, [5, 5])
         """
-        h = 2 * edge.index if type(edge) is Edge and edge._t is self._t else self._halfedge_index(edge)
-        v = self._act_at(try_split_edge, split_edge_at, h, as_fraction(at), point)
+        h = self._halfedge_index(edge)
+        v = self._act_and_place(try_split_edge, (h, as_fraction(at)), point)
         if v < 0:
             self._refuse("split", v, ("edge", h >> 1))
         return self._made(Vertex, v)
 
     def can_split_edge(self, edge: Edge | Halfedge | int) -> bool:
-        """Whether :meth:`split_edge` would put a vertex into the edge: always, if it lives."""
-        return self._living_halfedge(edge) >= 0
+        """Whether :meth:`split_edge` would put a vertex into the edge: any that lives, unless the mesh is full."""
+        return self._living_halfedge(edge) >= 0 and not is_full.plain(self._t, 1, 1, 0)
 
     def can_split_edge_triangular(self, edge: Edge | Halfedge | int, *, allow_parallel: bool = False) -> bool:
         """Whether :meth:`split_edge_triangular` would split the edge. O(1)."""
         return self._act_on_two(split_edge_triangular_status, self._living_halfedge(edge), allow_parallel) == 0
 
+    @natively(natives.split_edge_triangular, try_split_edge_triangular)
     def split_edge_triangular(
         self,
         edge: Edge | Halfedge | int,
@@ -215,17 +212,18 @@ class Local(Base):
         >>> v.degree, mesh.n_faces, mesh.is_triangular
         (4, 6, True)
         """
-        h = 2 * edge.index if type(edge) is Edge and edge._t is self._t else self._halfedge_index(edge)
-        placing = None if allow_parallel else split_edge_triangular_at
-        v = self._act_at(try_split_edge_triangular, placing, h, as_fraction(at), point, allow_parallel)
+        h = self._halfedge_index(edge)
+        v = self._act_and_place(try_split_edge_triangular, (h, as_fraction(at), allow_parallel), point)
         if v < 0:
             self._refuse("split", v, ("edge", h >> 1))
         return self._made(Vertex, v)
 
     def can_split_face(self, face: Face | int) -> bool:
-        """Whether :meth:`split_face` would put a vertex into the face: always, if it lives."""
-        return self._living(Face, face) >= 0
+        """Whether :meth:`split_face` would put a vertex into the face: any that lives, unless the mesh is full."""
+        degree = self._made(Face, self._living(Face, face)).degree
+        return not is_full.plain(self._t, 1, degree, degree)
 
+    @natively(natives.split_face, try_split_face)
     def split_face(self, face: Face | int, point: ArrayLike | None = None) -> Vertex:
         r"""Put a vertex into a face and join it to every corner.
 
@@ -267,18 +265,20 @@ class Local(Base):
         >>> v.degree, mesh.n_faces, v.point.tolist()
         (4, 9, [0.5, 0.5, 0.0])
         """
-        f = face.index if type(face) is Face and face._t is self._t else self._index(Face, face)
-        v = self._act_at(try_split_face, split_face_at, f, None, point)
+        f = self._index(Face, face)
+        v = self._act_and_place(try_split_face, (f,), point)
         if v < 0:
             self._refuse("split", v, ("face", f))
         return self._made(Vertex, v)
 
     # -- collapse --------------------------------------------------------------------------------------------------
 
+    @natively(natives.collapse, collapse_status, ASK)
     def can_collapse(self, halfedge: Halfedge | int) -> bool:
         """Whether :meth:`collapse` would contract the halfedge. Some O(degree^2)."""
         return self._act(collapse_status, self._living(Halfedge, halfedge)) == 0
 
+    @natively(natives.collapse, try_collapse)
     def collapse(self, halfedge: Halfedge | int, point: ArrayLike | None = None, *, at: float = 1.0) -> Vertex:
         r"""Contract an edge: the origin of the halfedge goes, its target stays.
 
@@ -330,11 +330,12 @@ class Local(Base):
         (41, 78, 2)
         """
         h = self._index(Halfedge, halfedge)
-        v = self._act_at(try_collapse, collapse_at, h, as_fraction(at), point)
+        v = self._act_and_place(try_collapse, (h, as_fraction(at)), point)
         if v < 0:
             self._refuse("collapse", v, ("halfedge", h))
         return self._made(Vertex, v)
 
+    @natively(natives.collapse, try_collapse, TRY)
     def try_collapse(
         self, halfedge: Halfedge | int, point: ArrayLike | None = None, *, at: float = 1.0
     ) -> Vertex | None:
@@ -349,8 +350,8 @@ class Local(Base):
         >>> mesh.try_collapse(0) is None
         True
         """
-        h = halfedge.index if type(halfedge) is Halfedge and halfedge._t is self._t else self._index(Halfedge, halfedge)
-        v = self._act_at(try_collapse, collapse_at, h, as_fraction(at), point)
+        h = self._index(Halfedge, halfedge)
+        v = self._act_and_place(try_collapse, (h, as_fraction(at)), point)
         if v < -DELETED_ELEMENT:
             return None
         if v < 0:

@@ -18,8 +18,9 @@ from halfmesh.core.operators.welds import (
     weld_status,
     weld_vertices_status,
 )
-from halfmesh.mesh.editing.base import Base, as_fraction, as_point
+from halfmesh.mesh.editing.base import Base, as_fraction
 from halfmesh.mesh.elements import Element, Halfedge, Vertex
+from halfmesh.mesh.positions import as_point
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
