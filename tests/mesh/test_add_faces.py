@@ -115,8 +115,7 @@ DONE = (hm.TopologyError, hm.InvalidMeshError, hm.StaleElementError)
 @contextlib.contextmanager
 def sewing_always():
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(adding, "_FEWEST_SEWN", 0)
-        patch.setattr(adding, "_VERTICES_A_FACE", 1 << 40)
+        patch.setattr(adding, "_sewing_pays", lambda t, faces: True)
         yield
 
 
@@ -244,6 +243,77 @@ def test_what_was_sewn_in_a_transaction_is_taken_back():
         mesh.add_faces(faces[200:])
         attempt.rollback()
     assert columns(mesh) == before
+
+
+@contextlib.contextmanager
+def roads_taken(fewest, vertices_a_face, threads=1):
+    """Whether sewing was tried, each time; from so many faces on."""
+    tried = []
+
+    def trying(t, faces):
+        tried.append(True)
+        return sewn(t, faces)
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("HALFMESH_NUM_THREADS", str(threads))
+        patch.setattr(adding, "_FEWEST_SEWN", fewest)
+        patch.setattr(adding, "_VERTICES_A_FACE", vertices_a_face)
+        patch.setattr(adding, "sewn", trying)
+        yield tried
+
+
+GRID = hm.shapes.grid(20, 20).face_vertices()[0].reshape(-1, 4)
+ROWS = np.arange(400) < 200
+SCATTER = np.random.default_rng(0).permutation(40_000)
+
+
+@pytest.mark.parametrize(
+    ("faces", "first", "pays"),
+    [
+        (GRID, ROWS, True),  # two halves, which meet along a seam
+        (GRID, np.arange(400) % 2 == 0, False),  # every vertex has old and new faces
+        (SCATTER[GRID], np.arange(400) % 2 == 0, True),  # the same, but far apart
+        (SCATTER[GRID], ROWS, True),
+    ],
+)
+def test_faces_are_sewn_if_they_are_scattered_or_meet_what_is_there_along_a_seam(faces, first, pays):
+    mesh = hm.Mesh(faces[first], n_vertices=40_000)
+    with roads_taken(fewest=200, vertices_a_face=200) as tried:
+        mesh.add_faces(faces[~first])
+    assert tried == [True] * pays
+    assert_valid(mesh)
+
+
+@pytest.mark.parametrize(
+    ("fewest", "n_vertices", "threads", "pays"),
+    [
+        (200, 600, 1, True),
+        (201, 600, 1, False),  # too few faces
+        (400, 600, 2, True),  # half as many will do
+        (200, 601, 1, False),  # too many vertices
+    ],
+)
+def test_few_faces_are_not_sewn_nor_are_they_over_many_vertices(fewest, n_vertices, threads, pays):
+    mesh = hm.Mesh(GRID[ROWS], n_vertices=n_vertices)
+    with roads_taken(fewest, vertices_a_face=3, threads=threads) as tried:
+        mesh.add_faces(GRID[~ROWS])
+    assert tried == [True] * pays
+
+
+def test_nothing_is_sewn_in_a_transaction():
+    mesh = hm.Mesh(GRID[ROWS], n_vertices=441)
+    with roads_taken(fewest=200, vertices_a_face=3) as tried, mesh.transaction():
+        mesh.add_faces(GRID[~ROWS])
+    assert tried == []
+
+
+def test_corners_out_of_range_are_refused_where_sewing_was_tried():
+    mesh = hm.Mesh(GRID[ROWS], n_vertices=441)
+    before = state(mesh)
+    with roads_taken(fewest=200, vertices_a_face=3) as tried, pytest.raises(hm.InvalidMeshError):
+        mesh.add_faces(np.where(GRID[~ROWS] == 440, 441, GRID[~ROWS]))
+    assert tried == [True]
+    assert state(mesh) == before
 
 
 def test_faces_close_an_open_mesh():
