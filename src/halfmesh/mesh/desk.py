@@ -17,7 +17,8 @@ from typing import TYPE_CHECKING, Any, Concatenate, ParamSpec, TypeVar, cast
 import numpy as np
 
 from halfmesh._jit import Native, Operation, Record, are_possible, slots_of
-from halfmesh.core.topology import Topology, topology_at
+from halfmesh.core.slots import reserve
+from halfmesh.core.topology import EDGE_SLOTS, FACE_SLOTS, VERTEX_SLOTS, Topology, topology_at
 from halfmesh.errors import StaleElementError
 from halfmesh.mesh.attributes import Column, positions_at
 from halfmesh.mesh.elements import Edge, Face, Halfedge, Vertex
@@ -175,9 +176,12 @@ def _catching_up(topology: Topology) -> Callable[[], None]:
 
 
 def natively(
-    native: Native, operation: Operation[Any, Any], mode: int = ACT
+    native: Native, operation: Operation[Any, Any], mode: int = ACT, makes: tuple[int, int, int] = (0, 0, 0)
 ) -> Callable[[Callable[Concatenate[M, P], R]], Callable[Concatenate[M, P], R]]:
-    """Declare that a method has a native, which the mesh gets once the method was called and its operation compiled."""
+    """Declare that a method has a native, which the mesh gets once the method was called and its operation compiled.
+
+    It needs room for so many vertices, edges and faces, which the method leaves to it.
+    """
 
     def declare(method: Callable[Concatenate[M, P], R]) -> Callable[Concatenate[M, P], R]:
         @functools.wraps(method)
@@ -187,7 +191,7 @@ def natively(
                 offer(self, by_python)
             return result
 
-        by_python.native = (native, mode)  # type: ignore[attr-defined]
+        by_python.native = (native, mode, makes)  # type: ignore[attr-defined]
         return cast("Callable[Concatenate[M, P], R]", by_python)
 
     return declare
@@ -201,11 +205,25 @@ def offer(mesh: Base, method: Callable[..., Any]) -> None:
         if words is None:
             return
         mesh._desk = Desk(words)
+    native, mode, makes = method.native  # type: ignore[attr-defined]
+    if not mesh._savepoints:
+        _make_room(mesh, makes)
     mesh._desk.open(mesh)
     if name not in mesh.__dict__ and getattr(type(mesh), name, None) is method:  # a subclass may have its own
-        call, (native, mode) = _calling(mesh._topology, method), method.native
+        call = _calling(mesh._topology, method)
         record = Record.of([int(mesh._desk.record), id(call), mode], (mesh._desk.record, call))
         mesh.__dict__[name] = native.function(record, name, _documentation(method))
+
+
+def _make_room(mesh: Base, makes: tuple[int, int, int]) -> None:
+    """Have the next native not lack room. Columns grow by half, so that this costs O(1) a call, amortised."""
+    t, counts = mesh._t, mesh._t.counts
+    slots = counts[VERTEX_SLOTS], counts[EDGE_SLOTS], counts[FACE_SLOTS]
+    room = len(t.vertex_halfedge), len(t.next) // 2, len(t.face_halfedge)
+    more = [max(16, n // 2) if n + k > r else 0 for n, k, r in zip(slots, makes, room, strict=True)]
+    if any(more):
+        reserve(mesh, *more)
+    mesh.vertex_data._columns["points"].reach(slots[0] + makes[0])
 
 
 def _calling(topology: Topology, method: Callable[..., Any]) -> Callable[..., Any]:

@@ -43,7 +43,7 @@ __all__ = ["Building"]
 class Building(Base):
     """The operations of a general half-edge mesh: wire, loops, parallel edges and faces, as they come."""
 
-    @natively(natives.add_vertex, try_add_vertex)
+    @natively(natives.add_vertex, try_add_vertex, makes=natives.OF_ADD_VERTEX)
     def add_vertex(self, point: ArrayLike | None = None) -> Vertex:
         """Add an isolated vertex.
 
@@ -76,7 +76,6 @@ class Building(Base):
         v = self._act_and_place(try_add_vertex, (), point)
         if v < 0:
             self._refuse("add", v, ("a", "vertex"))
-        self.vertex_data._columns["points"].reach(v + 1)  # the native leaves that to this method
         return self._made(Vertex, v)
 
     def add_edge(
@@ -178,7 +177,7 @@ class Building(Base):
         h, g = self._living(Halfedge, arriving), self._living(Halfedge, leaving)
         return self._act_on_two(make_adjacent_status, h, g) == 0
 
-    @natively(natives.add_face, try_add_triangle)
+    @natively(natives.add_face, try_add_triangle, makes=natives.OF_ADD_FACE)
     def add_face(
         self, vertices: Iterable[Vertex | int] | None = None, *, halfedges: Iterable[Halfedge | int] | None = None
     ) -> Face:

@@ -100,7 +100,7 @@ class Local(Base):
 
     # -- splits ----------------------------------------------------------------------------------------------------
 
-    @natively(natives.split_edge, try_split_edge)
+    @natively(natives.split_edge, try_split_edge, makes=natives.OF_SPLIT_EDGE)
     def split_edge(self, edge: Edge | Halfedge | int, point: ArrayLike | None = None, *, at: float = 0.5) -> Vertex:
         r"""Put a vertex into an edge. The faces beside it gain a corner.
 
@@ -156,7 +156,7 @@ class Local(Base):
         """Whether :meth:`split_edge_triangular` would split the edge. O(1)."""
         return self._act_on_two(split_edge_triangular_status, self._living_halfedge(edge), allow_parallel) == 0
 
-    @natively(natives.split_edge_triangular, try_split_edge_triangular)
+    @natively(natives.split_edge_triangular, try_split_edge_triangular, makes=natives.OF_SPLIT_EDGE_TRIANGULAR)
     def split_edge_triangular(
         self,
         edge: Edge | Halfedge | int,
@@ -223,7 +223,7 @@ class Local(Base):
         degree = self._made(Face, self._living(Face, face)).degree
         return not is_full.plain(self._t, 1, degree, degree)
 
-    @natively(natives.split_face, try_split_face)
+    @natively(natives.split_face, try_split_face, makes=natives.OF_SPLIT_FACE)
     def split_face(self, face: Face | int, point: ArrayLike | None = None) -> Vertex:
         r"""Put a vertex into a face and join it to every corner.
 

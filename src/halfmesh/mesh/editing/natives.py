@@ -48,7 +48,27 @@ from halfmesh.mesh.objects import (
 )
 from halfmesh.mesh.policies import LERP, replay_notes
 
-__all__ = ["add_face", "add_vertex", "collapse", "flip", "split_edge", "split_edge_triangular", "split_face"]
+__all__ = [
+    "OF_ADD_FACE",
+    "OF_ADD_VERTEX",
+    "OF_SPLIT_EDGE",
+    "OF_SPLIT_EDGE_TRIANGULAR",
+    "OF_SPLIT_FACE",
+    "add_face",
+    "add_vertex",
+    "collapse",
+    "flip",
+    "split_edge",
+    "split_edge_triangular",
+    "split_face",
+]
+
+# What each makes at most: vertices, edges and faces. (Splitting a face of more corners may have to grow the columns.)
+OF_ADD_VERTEX = (1, 0, 0)
+OF_ADD_FACE = (0, 4, 1)
+OF_SPLIT_EDGE = (1, 1, 0)
+OF_SPLIT_EDGE_TRIANGULAR = (1, 3, 2)
+OF_SPLIT_FACE = (1, FEW, FEW)
 
 
 @native
@@ -105,11 +125,7 @@ def split_edge(self: int, arguments: int, n: int, names: int) -> int:
     record = record_of(self)
     desk = word_at(record, DESK)
     h = halfedge_in(desk, word_at(arguments, 0)) if n >= 1 and is_open(desk) else -1
-    is_told = (
-        options_in(desk, arguments, 1, n, names, 0.5)
-        if h >= 0 and _has_room_for_vertex(desk) and _has_room_around(desk)
-        else -1
-    )
+    is_told = options_in(desk, arguments, 1, n, names, 0.5) if h >= 0 and _has_room(desk, *OF_SPLIT_EDGE) else -1
     if is_told < 0:
         return method(record, arguments, n, names)
     t = topology_at(word_at(desk, TOPOLOGY))
@@ -125,11 +141,8 @@ def split_edge_triangular(self: int, arguments: int, n: int, names: int) -> int:
     record = record_of(self)
     desk = word_at(record, DESK)
     h = halfedge_in(desk, word_at(arguments, 0)) if n >= 1 and is_open(desk) else -1
-    is_told = (
-        options_in(desk, arguments, 1, n, names, 0.5)
-        if h >= 0 and _has_room_for_vertex(desk) and _has_room_around(desk)
-        else -1
-    )
+    may = h >= 0 and _has_room(desk, *OF_SPLIT_EDGE_TRIANGULAR)
+    is_told = options_in(desk, arguments, 1, n, names, 0.5) if may else -1
     if is_told < 0:
         return method(record, arguments, n, names)
     t = topology_at(word_at(desk, TOPOLOGY))
@@ -145,11 +158,7 @@ def split_face(self: int, arguments: int, n: int, names: int) -> int:
     record = record_of(self)
     desk = word_at(record, DESK)
     f = index_in(desk, word_at(arguments, 0), FACE) if n >= 1 and is_open(desk) else -1
-    is_told = (
-        options_in(desk, arguments, 1, n, names, NO_PLACE)
-        if f >= 0 and _has_room_for_vertex(desk) and _has_room_around(desk)
-        else -1
-    )
+    is_told = options_in(desk, arguments, 1, n, names, NO_PLACE) if f >= 0 and _has_room(desk, *OF_SPLIT_FACE) else -1
     if is_told < 0:
         return method(record, arguments, n, names)
     t = topology_at(word_at(desk, TOPOLOGY))
@@ -164,11 +173,8 @@ def add_vertex(self: int, arguments: int, n: int, names: int) -> int:
     """``add_vertex(point=None)``."""
     record = record_of(self)
     desk = word_at(record, DESK)
-    is_told = (
-        options_in(desk, arguments, 0, n, names, 0.0)
-        if names == 0 and is_open(desk) and _has_room_for_vertex(desk)
-        else -1
-    )
+    may = is_open(desk) and _has_room(desk, *OF_ADD_VERTEX)
+    is_told = options_in(desk, arguments, 0, n, names, NO_PLACE) if may else -1
     if is_told < 0:
         return method(record, arguments, n, names)
     t = topology_at(word_at(desk, TOPOLOGY))
@@ -183,7 +189,7 @@ def add_face(self: int, arguments: int, n: int, names: int) -> int:
     desk = word_at(record, DESK)
     corners = word_at(arguments, 0)
     size = size_of(desk, corners) if n == 1 and names == 0 and is_open(desk) else -1
-    if size < 3 or size > 4 or not _has_room_around(desk):
+    if size < 3 or size > 4 or not _has_room(desk, *OF_ADD_FACE):
         return method(record, arguments, n, names)
     a = index_in(desk, item(desk, corners, 0), VERTEX)
     b = index_in(desk, item(desk, corners, 1), VERTEX)
@@ -203,22 +209,16 @@ def _is_living(t: Any, h: int) -> bool:
     return h < 2 * edge_slots(t) and t.next[h] >= 0  # type: ignore[no-any-return]
 
 
-# Whether no column has to grow: what may run out of memory is left to Python, which can say so.
-
-
 @kernel
-def _has_room_for_vertex(desk: int) -> bool:
+def _has_room(desk: int, n_vertices: int, n_edges: int, n_faces: int) -> bool:
+    """Whether no column has to grow: what may run out of memory is left to Python, which can say so."""
     t, points = topology_at(word_at(desk, TOPOLOGY)), positions_at(word_at(desk, POINTS))
-    n = t.counts[VERTEX_SLOTS]
-    return n < len(t.vertex_halfedge) and n < len(points.values)  # type: ignore[no-any-return]
-
-
-@kernel
-def _has_room_around(desk: int) -> bool:
-    """For a few edges and faces."""
-    t = topology_at(word_at(desk, TOPOLOGY))
+    n = t.counts[VERTEX_SLOTS] + n_vertices
     return (  # type: ignore[no-any-return]
-        2 * (t.counts[EDGE_SLOTS] + FEW) <= len(t.next) and t.counts[FACE_SLOTS] + FEW <= len(t.face_halfedge)
+        n <= len(t.vertex_halfedge)
+        and n <= len(points.values)
+        and 2 * (t.counts[EDGE_SLOTS] + n_edges) <= len(t.next)
+        and t.counts[FACE_SLOTS] + n_faces <= len(t.face_halfedge)
     )
 
 
