@@ -30,13 +30,15 @@ from halfmesh.core.matching import (
     after,
     before,
     corner_range,
+    face_of_corner,
+    kept,
     mates_by_vertex,
     mates_from_twins,
     parts,
 )
 from halfmesh.core.topology import LIMIT, N_EXTERIOR, Arrays, Topology, empty_columns
 
-__all__ = ["Defective", "construct"]
+__all__ = ["Defective", "construct", "number_edges", "write_halfedges"]
 
 Ints = NDArray[np.int32]
 
@@ -67,7 +69,7 @@ def construct(faces: FaceList, twins: Ints | None = None) -> Topology:
     was used for matching becomes the columns.
     """
     mates, first_corners, room = mates_by_vertex(faces) if twins is None else mates_from_twins(faces, twins)
-    halfedges, corners, n_edges = _numbered(faces, mates)
+    halfedges, corners, n_edges = number_edges(faces, mates)
     del mates
     arrays = empty_columns(faces.n_vertices, n_edges, faces.n_faces, room)
     _write(arrays, faces, halfedges, corners, first_corners, n_edges)
@@ -80,8 +82,11 @@ def construct(faces: FaceList, twins: Ints | None = None) -> Topology:
 # ------------------------------------------------------------------------------------------------------------ numbering
 
 
-def _numbered(faces: FaceList, mates: Ints) -> tuple[Ints, Ints, int]:
-    """Halfedge of each corner, corner of each halfedge (-1: exterior), number of edges."""
+def number_edges(faces: FaceList, mates: Ints, first: int = 0) -> tuple[Ints, Ints, int]:
+    """Halfedge of each corner, corner of each halfedge (-1: exterior) from that of edge `first` on, number of edges.
+
+    A corner whose halfedge is there already has it in the place of its mate, see `kept`.
+    """
     n = faces.n_corners
     shape = (faces.degree, faces.offsets)
     pieces = parts(faces.n_faces, n)
@@ -91,8 +96,8 @@ def _numbered(faces: FaceList, mates: Ints) -> tuple[Ints, Ints, int]:
         raise OverflowError(f"{2 * n_edges} halfedges are more than int32 indices can name")
     halfedges = np.empty(n, dtype=np.int32)
     corners = np.empty(2 * n_edges, dtype=np.int32)
-    jobs = [(*shape, mates, sum(new[:i]), halfedges, corners, *p) for i, p in enumerate(pieces)]
-    parallel(_number_edges.at(n), jobs)
+    jobs = [(*shape, mates, sum(new[:i]), 2 * first, halfedges, corners, *p) for i, p in enumerate(pieces)]
+    parallel(_number_new_edges.at(n), jobs)
     return halfedges, corners, n_edges
 
 
@@ -104,13 +109,13 @@ def _count_new_edges(degree: int, offsets: Any, mates: Any, low: int, high: int)
         begin, end = corner_range(degree, offsets, f)
         for c in range(begin, end):
             mate = mates[after(c, begin, end)]
-            n += mate < 0 or mate > c
+            n += mate == NONE or mate > c
     return n
 
 
 @kernel
-def _number_edges(
-    degree: int, offsets: Any, mates: Any, n_before: int, halfedges: Any, corners: Any, low: int, high: int
+def _number_new_edges(
+    degree: int, offsets: Any, mates: Any, n_before: int, base: int, halfedges: Any, corners: Any, low: int, high: int
 ) -> None:
     """The first corner of an edge gives it its number and takes halfedge 2e; its mate, wherever it is, takes 2e + 1."""
     e = n_before
@@ -118,13 +123,15 @@ def _number_edges(
         begin, end = corner_range(degree, offsets, f)
         for c in range(begin, end):
             mate = mates[after(c, begin, end)]
-            if mate < 0 or mate > c:
-                halfedges[c] = 2 * e
+            if mate == NONE or mate > c:
+                halfedges[c] = base + 2 * e
                 corners[2 * e] = c
                 corners[2 * e + 1] = mate
                 if mate >= 0:
-                    halfedges[mate] = 2 * e + 1
+                    halfedges[mate] = base + 2 * e + 1
                 e += 1
+            elif mate < NONE:
+                halfedges[c] = kept(mate)
 
 
 # -------------------------------------------------------------------------------------------------------------- columns
@@ -135,7 +142,7 @@ def _write(arrays: Arrays, faces: FaceList, halfedges: Ints, corners: Ints, firs
     shape = (faces.degree, faces.offsets, faces.corner_faces(), halfedges)
     columns = (arrays.next, arrays.prev, arrays.origin, arrays.face)
     jobs: list[tuple[Any, ...]] = [
-        (_write_halfedges.at(n), *shape, faces.corners, corners, *columns, *piece) for piece in parts(n_edges, n)
+        (write_halfedges.at(n), *shape, faces.corners, corners, *columns, 0, *piece) for piece in parts(n_edges, n)
     ]
     of_vertices = (first_corners, arrays.vertex_halfedge)
     jobs += [(_write_vertices.at(n), halfedges, *of_vertices, *piece) for piece in parts(faces.n_vertices, n)]
@@ -148,7 +155,7 @@ def _do(function: Callable[..., Any], *arguments: Any) -> Any:
 
 
 @kernel
-def _write_halfedges(
+def write_halfedges(
     degree: int,
     offsets: Any,
     corner_faces: Any,
@@ -159,41 +166,33 @@ def _write_halfedges(
     prev: Any,
     origin: Any,
     face: Any,
+    first_face: int,
     low: int,
     high: int,
 ) -> None:
-    """Fill the columns of the edges low..high, in order: reads jump, writes don't.
+    """Fill the columns of the edges low..high, in order: reads jump, writes don't. Faces count from `first_face`.
 
     The second halfedge starts where the first one ends, which is read where the first one lies: in shuffled order
     that alone made this pass 2.5 times faster.
     """
     for h in range(2 * low, 2 * high, 2):
         c = corners[h]
-        f = _face_of_corner(degree, corner_faces, c)
+        f = face_of_corner(degree, corner_faces, c)
         begin, end = corner_range(degree, offsets, f)
         following = after(c, begin, end)
         next[h] = halfedges[following]
         prev[h] = halfedges[before(c, begin, end)]
         origin[h] = vertices[c]
-        face[h] = f
+        face[h] = first_face + f
         origin[h + 1] = vertices[following]
         face[h + 1] = NONE
         c = corners[h + 1]
         if c >= 0:
-            f = _face_of_corner(degree, corner_faces, c)
+            f = face_of_corner(degree, corner_faces, c)
             begin, end = corner_range(degree, offsets, f)
             next[h + 1] = halfedges[after(c, begin, end)]
             prev[h + 1] = halfedges[before(c, begin, end)]
-            face[h + 1] = f
-
-
-@kernel
-def _face_of_corner(degree: int, corner_faces: Any, c: int) -> int:
-    if degree == 3:
-        return c // 3  # by a constant: a multiplication
-    if degree > 0:
-        return c // degree
-    return corner_faces[c]  # type: ignore[no-any-return]
+            face[h + 1] = first_face + f
 
 
 @kernel

@@ -31,14 +31,21 @@ from halfmesh.core.facelist import FaceList
 
 __all__ = [
     "NONE",
+    "Blocks",
     "Defective",
     "Matches",
     "after",
     "before",
     "corner_range",
+    "face_of_corner",
+    "in_blocks",
+    "is_scattered",
+    "kept",
     "mates_by_vertex",
     "mates_from_twins",
     "parts",
+    "runs",
+    "sort_block",
 ]
 
 Ints = NDArray[np.int32]
@@ -62,6 +69,14 @@ def parts(n: int, work: int) -> list[tuple[int, int]]:
     count = max(1, min(n_threads(), _MOST_PARTS, work // _PART))
     bounds = [n * i // count for i in range(count + 1)]
     return list(pairwise(bounds))
+
+
+class Blocks(NamedTuple):
+    """The corners as (vertex, vertex before, vertex after, corner), those of block `b` in starts[b]..starts[b + 1]."""
+
+    streams: Ints
+    starts: Ints
+    shift: int
 
 
 class Matches(NamedTuple):
@@ -92,8 +107,30 @@ def mates_by_vertex(faces: FaceList) -> Matches:
         An index is out of range or repeated in succession, a halfedge is there twice, or a vertex can't be held.
     """
     n, n_vertices = faces.n_corners, faces.n_vertices
+    blocks = in_blocks(faces)
+    found = Matches(np.empty(n, dtype=np.int32), np.empty(n_vertices, dtype=np.int32), blocks.streams)
+    jobs: list[tuple[Any, ...]] = []
+    for low, high, largest in runs(blocks, n):
+        first = np.empty((1 << blocks.shift) + 2, dtype=np.int32)
+        around = np.empty(max(3 * largest, 1), dtype=np.int32)
+        table = np.full(n_vertices, NONE, dtype=np.int32)
+        jobs.append((*blocks, n_vertices, first, around, table, found.mates, found.first_corners, low, high))
+    if sum(parallel(_match_blocks.at(n), jobs)):
+        raise Defective
+    return found
+
+
+def in_blocks(faces: FaceList) -> Blocks:
+    """The corners of all faces, distributed to blocks of neighboring vertices.
+
+    Raises
+    ------
+    Defective
+        An index is out of range or repeated in succession, or a face has fewer than three corners.
+    """
+    n, n_vertices = faces.n_corners, faces.n_vertices
     pieces = parts(faces.n_faces, n)
-    shift = _block_bits(n_vertices, len(pieces), _MOST_BITS if _is_scattered(faces) else _BITS_IN_ORDER)
+    shift = _block_bits(n_vertices, len(pieces), _MOST_BITS if is_scattered(faces) else _BITS_IN_ORDER)
     n_blocks = (n_vertices >> shift) + 1
     cursors = np.zeros((len(pieces), n_blocks), dtype=np.int32)
     source = (faces.corners, faces.degree, faces.offsets)
@@ -104,13 +141,10 @@ def mates_by_vertex(faces: FaceList) -> Matches:
     streams = np.empty(4 * n + n // _FEW_EXTERIOR, dtype=np.int32)
     pours = [(*source, shift, row, streams, *piece) for row, piece in zip(cursors, pieces, strict=True)]
     parallel(_distribute.at(n), pours)
-    found = Matches(np.empty(n, dtype=np.int32), np.empty(n_vertices, dtype=np.int32), streams)
-    if sum(parallel(_match_blocks.at(n), _block_jobs(found, starts, shift))):
-        raise Defective
-    return found
+    return Blocks(streams, starts, shift)
 
 
-def _is_scattered(faces: FaceList) -> bool:
+def is_scattered(faces: FaceList) -> bool:
     """Whether faces in succession are far apart, by a sample. It decides about time only, not about results."""
     corners, step = faces.corners, min(faces.degree or 4, 4)
     sample = np.arange(step, len(corners), len(corners) // _SAMPLE + 1)
@@ -134,21 +168,13 @@ def _first_places(cursors: Ints) -> Ints:
     return starts
 
 
-def _block_jobs(found: Matches, starts: Ints, shift: int) -> list[tuple[Any, ...]]:
-    """A run of blocks with about as many corners for each thread, with buffers for the largest of them."""
-    n, n_vertices = len(found.mates), len(found.first_corners)
+def runs(blocks: Blocks, n: int) -> list[tuple[int, int, int]]:
+    """Runs of blocks with about as many of the `n` corners for each thread, and the corners of the largest block."""
+    starts = blocks.starts
     n_parts = len(parts(len(starts), n))
     cuts = np.searchsorted(starts[1:-1], [n * i // n_parts for i in range(1, n_parts)])
     bounds = np.unique(np.r_[0, cuts, len(starts) - 1]).tolist()
-    jobs: list[tuple[Any, ...]] = []
-    for low, high in pairwise(bounds):
-        largest = int(np.diff(starts[low : high + 1]).max())
-        first = np.empty((1 << shift) + 2, dtype=np.int32)
-        around = np.empty(max(3 * largest, 1), dtype=np.int32)
-        table = np.full(n_vertices, NONE, dtype=np.int32)
-        buffers = (first, around, table)
-        jobs.append((found.room, starts, shift, n_vertices, *buffers, found.mates, found.first_corners, low, high))
-    return jobs
+    return [(low, high, int(np.diff(starts[low : high + 1]).max())) for low, high in pairwise(bounds)]
 
 
 @kernel
@@ -177,6 +203,22 @@ def corner_range(degree: int, offsets: Any, f: int) -> tuple[int, int]:
     if degree > 0:
         return degree * f, degree * f + degree
     return offsets[f], offsets[f + 1]
+
+
+@kernel
+def face_of_corner(degree: int, corner_faces: Any, c: int) -> int:
+    """The face of the corner, see `FaceList.corner_faces`."""
+    if degree == 3:
+        return c // 3  # by a constant: a multiplication
+    if degree > 0:
+        return c // degree
+    return corner_faces[c]  # type: ignore[no-any-return]
+
+
+@kernel
+def kept(h: int) -> int:
+    """A halfedge in the place of a mate, which is below -1: of a corner that has it already; and back."""
+    return -2 - h
 
 
 @kernel
@@ -231,7 +273,7 @@ def _match_blocks(
     for block in range(low, high):
         base = block << shift
         n = min(n_vertices - base, 1 << shift)
-        _sort_block(streams, starts[block], starts[block + 1], base, n, first, around)
+        sort_block(streams, starts[block], starts[block + 1], base, n, first, around)
         for v in range(n):
             first_corners[base + v] = around[3 * first[v] + 2] if first[v] < first[v + 1] else NONE
         wrong += _match(first, around, table, mates, n)
@@ -239,7 +281,7 @@ def _match_blocks(
 
 
 @kernel
-def _sort_block(streams: Any, low: int, high: int, base: int, n: int, first: Any, around: Any) -> None:
+def sort_block(streams: Any, low: int, high: int, base: int, n: int, first: Any, around: Any) -> None:
     """Counting sort into ``around``: (vertex before, vertex after, corner); vertex `v` has first[v]..first[v + 1]."""
     for v in range(n + 2):
         first[v] = 0

@@ -142,6 +142,27 @@ class Topology:
         self.lowered = None
         self._adopt(made)
 
+    def make_room(self, n_edges: int, n_faces: int) -> None:
+        """Take columns with room for so many more, as `slots.reserve` does, but copied by all threads."""
+        old, counts = self._arrays, self._arrays.counts
+        names: list[str] = []
+        sizes: list[tuple[int, int]] = []
+        for some, used, more in (
+            (("next", "prev", "origin", "face"), 2 * int(counts[EDGE_SLOTS]), 2 * n_edges),
+            (("face_halfedge",), int(counts[FACE_SLOTS]), n_faces),
+        ):
+            if used + more > len(getattr(old, some[0])):
+                names += some
+                sizes += [(used, used + max(more, used // 2))] * len(some)
+        arrays = Arrays()
+        for name in FIELDS:
+            setattr(arrays, name, getattr(old, name))
+        jobs = [(getattr(old, name), *size) for name, size in zip(names, sizes, strict=True)]
+        for name, column in zip(names, _jit.parallel(_enlarged, jobs), strict=True):
+            setattr(arrays, name, column)
+        self.lowered = None
+        self._adopt(arrays)
+
     # -- transactions --------------------------------------------------------------------------------------------
 
     def put_back(self, arrays: Arrays, views: Any, limits: Limits) -> None:
@@ -304,6 +325,12 @@ def empty_columns(n_vertices: int, n_edges: int, n_faces: int, room: Any = None)
     if n_edges == 0:  # rules that are branch-free may look at halfedge 0
         arrays.next[:] = arrays.prev[:] = arrays.origin[:] = arrays.face[:] = -1
     return arrays
+
+
+def _enlarged(column: Ints, used: int, n: int) -> Ints:
+    made = np.empty(n, dtype=np.int32)
+    made[:used] = column[:used]
+    return made
 
 
 def _with_room(column: NDArray[Any]) -> NDArray[Any]:

@@ -9,8 +9,10 @@ import numpy as np
 
 import halfmesh as hm
 from halfmesh import _jit
+from halfmesh.core.facelist import as_face_list
 from halfmesh.core.operators import building
 from halfmesh.core.pens import rewind
+from halfmesh.core.sewing import sewn
 from halfmesh.core.slots import reserve
 from halfmesh.warmup.meshes import decorated
 
@@ -132,6 +134,8 @@ def _build_in_bulk() -> None:
     mesh.add_face([2, 3, 4, 5])
     mesh.add_face([6, 7, 8, 9, 10])
     mesh.add_face([11, 12, 13, 12])
+    half = np.array([[0, 1, 2], [0, 2, 3], [0, 3, 4]], np.int32)
+    sewn(hm.Mesh([[0, 4, 1]], n_vertices=6).topology, as_face_list(half, 6))
     hm.try_add_faces(mesh, np.array([11, 14, 15], np.int32), np.array([0, 3], np.int32))
 
 
