@@ -26,11 +26,14 @@ def explain(faces: FaceList) -> InvalidMeshError:
     corners, begins = faces.corners, faces.begins()
     degrees = np.diff(begins)
     face_of = np.repeat(np.arange(faces.n_faces), degrees)
-    for question in (_out_of_range, _too_small, _repeated):
+    for question in (_out_of_range, _too_small):
         error = question(faces, corners, begins, face_of)
         if error is not None:
             return error
     following = _following(begins)
+    error = _repeated(faces, corners, following, face_of)
+    if error is not None:
+        return error
     origin, target = corners.astype(np.int64), corners[following].astype(np.int64)
     error = _crowded_edges(faces, origin, target, face_of)
     if error is None:
@@ -114,8 +117,8 @@ def _too_small(faces: FaceList, corners: Ints, begins: Ints, face_of: Ints) -> I
     )
 
 
-def _repeated(faces: FaceList, corners: Ints, begins: Ints, face_of: Ints) -> InvalidMeshError | None:
-    bad = np.flatnonzero(corners == corners[_following(begins)])
+def _repeated(faces: FaceList, corners: Ints, following: Ints, face_of: Ints) -> InvalidMeshError | None:
+    bad = np.flatnonzero(corners == corners[following])
     if not len(bad):
         return None
     where = [f"face {face_of[c]} (vertex {corners[c]})" for c in bad[:SHOWN]] + [""] * (len(bad) - SHOWN)

@@ -268,16 +268,16 @@ def _match_blocks(
     low: int,
     high: int,
 ) -> int:
-    """Sort the corners of each of the blocks low..high by vertex, and match them; returns the defective vertices."""
-    wrong = 0
+    """Sort the corners of each of the blocks low..high by vertex, and match them; returns 1 at the first defect."""
     for block in range(low, high):
         base = block << shift
         n = min(n_vertices - base, 1 << shift)
         sort_block(streams, starts[block], starts[block + 1], base, n, first, around)
         for v in range(n):
             first_corners[base + v] = around[3 * first[v] + 2] if first[v] < first[v + 1] else NONE
-        wrong += _match(first, around, table, mates, n)
-    return wrong
+        if not _match(first, around, table, mates, n):
+            return 1
+    return 0
 
 
 @kernel
@@ -299,25 +299,20 @@ def sort_block(streams: Any, low: int, high: int, base: int, n: int, first: Any,
 
 
 @kernel
-def _match(first: Any, around: Any, table: Any, mates: Any, n: int) -> int:
-    """Link the corners around each vertex of a block; returns how many vertices can't be held.
+def _match(first: Any, around: Any, table: Any, mates: Any, n: int) -> bool:
+    """Link the corners around each vertex of a block; False as soon as one can't be held.
 
     ``table[u]`` is the corner that goes on to `u`. It is never cleared: an entry counts only if it points among the
     corners of this vertex and agrees. A closed fan is matched while it is walked, which is all that most vertices need.
     """
-    wrong = 0
     for v in range(n):
         begin, end = first[v], first[v + 1]
-        doubled = 0
         for i in range(begin, end):
             u = around[3 * i + 1]
             j = table[u]
             if begin <= j < i and around[3 * j + 1] == u:
-                doubled += 1
+                return False  # a halfedge twice: the walks below rely on each being there once
             table[u] = i
-        if doubled > 0:
-            wrong += 1
-            continue  # a halfedge twice: the walks below rely on each being there once
         i, size = begin, 0
         for _ in range(begin, end):
             u = around[3 * i]
@@ -330,8 +325,9 @@ def _match(first: Any, around: Any, table: Any, mates: Any, n: int) -> int:
             i = j
             if i == begin:
                 break
-        wrong += size != end - begin
-    return wrong
+        if size != end - begin:
+            return False
+    return True
 
 
 @kernel
