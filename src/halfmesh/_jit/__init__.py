@@ -42,7 +42,7 @@ from halfmesh._jit.intrinsics import (
     word_at,
 )
 from halfmesh._jit.kernels import Kernel, Operation, all_kernels, inline_kernel, kernel, operation, twofold
-from halfmesh._jit.natives import Native, Record, are_possible, native, record_of, slots_of
+from halfmesh._jit.natives import Native, Record, are_possible, maker_of, native, record_of, slots_of
 from halfmesh._jit.room import filled, grown
 from halfmesh._jit.rules import Rule, asking, rule
 from halfmesh._jit.threads import in_succession, n_threads, parallel
@@ -77,6 +77,7 @@ __all__ = [
     "inline_kernel",
     "kernel",
     "lowered",
+    "maker_of",
     "n_threads",
     "native",
     "operation",

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping
 from typing import TYPE_CHECKING, Any, ClassVar, Generic, NoReturn, TypeVar, overload
 
+from halfmesh._jit import maker_of
 from halfmesh.core.epochs import successor_of
 from halfmesh.core.topology import DELETED, EDGE_SLOTS, FACE_SLOTS, VERTEX_SLOTS
 from halfmesh.errors import InvalidMeshError, StaleElementError
@@ -40,9 +41,11 @@ class Element:
 
     _family: ClassVar[Mapping[str, type[Element]]] = KINDS  # the classes of the handles that its words give
     _form: ClassVar[str] = "plain"  # the form of kernels that walks its carrier
+    _empty: ClassVar[Callable[[], Any]]  # makes a handle of this class that is not filled in yet
     _steps: ClassVar[dict[str, tuple[Any, str]]]  # the words that follow one rule: the rule, and the kind it leads to
 
     def __init_subclass__(cls) -> None:
+        cls._empty = maker_of(cls)
         if "kind" in vars(cls):  # not for classes that users derive
             KINDS[cls.kind] = cls
 
@@ -169,7 +172,7 @@ class Element:
 
 def made(kind: type[E], t: Any, index: int) -> E:
     """A handle of what is known to be an element."""
-    handle: E = _new(kind)
+    handle: E = kind._empty()
     handle._t = t
     handle.index = index
     return handle
@@ -202,7 +205,7 @@ class _Step(Generic[R]):
         return made.__get__(instance, owner)
 
     def _getter(self) -> Callable[[Any], Any]:
-        rule, kind, new, word = self.rule.plain, KINDS[self.kind], _new, self.name
+        rule, new, word = self.rule.plain, KINDS[self.kind]._empty, self.name
         per_slot = 2 if self.owner.kind == "edge" else 1
 
         def get(self: Any) -> Any:
@@ -211,7 +214,7 @@ class _Step(Generic[R]):
                 index = rule(t, self.index)
                 if index < 0:
                     return self._absent(index)
-                made = new(kind)
+                made = new()
                 made._t = t
                 made.index = index
                 return made
@@ -224,7 +227,7 @@ class _Step(Generic[R]):
                 index = self.index
                 if t.next[per_slot * index] < 0:
                     self._stale()
-                made = new(kind)
+                made = new()
                 made._t = t
                 made.index = rule(t, index)
                 return made

@@ -26,7 +26,6 @@ __all__ = ["TABLES", "Base", "as_fraction"]
 E = TypeVar("E", bound=Element)
 
 TABLES = ("vertex_data", "halfedge_data", "edge_data", "face_data")
-_new: Any = object.__new__
 _ABOUT_AS_LONG_AS = 12  # elements: what an operator costs when it is interpreted, counted in steps of a loop
 
 
@@ -132,7 +131,7 @@ class Base(Asked):
         self._follow()
 
     def _made(self, kind: type[E], index: int) -> E:
-        handle: E = _new(kind)  # as `made`, whose call costs as much again
+        handle: E = kind._empty()  # as `made`, whose call costs as much again
         handle._t = self._t
         handle.index = index
         return handle
