@@ -14,7 +14,6 @@ from numpy.typing import NDArray
 
 from halfmesh._jit import Kernel, kernel
 from halfmesh.core.circulation import face_halfedges, outgoing
-from halfmesh.core.circulation import face_vertices as face_corners
 from halfmesh.core.navigation import (
     edge_slots,
     face_of,
@@ -59,12 +58,12 @@ def face_degrees(t: Topology) -> Ints:
 
 def corner_halfedges(t: Topology) -> Table:
     """The halfedges of each face, from its first corner: (halfedges, offsets)."""
-    return _around_faces(t, _fill_face_halfedges)
+    return _around_faces(t, False)
 
 
 def face_vertices(t: Topology) -> Table:
     """The vertices of each face, as they were listed."""
-    return _around_faces(t, _fill_face_vertices)
+    return _around_faces(t, True)
 
 
 def vertex_neighbors(t: Topology) -> Table:
@@ -157,37 +156,24 @@ def _fill_wire(t: Any, table: Any) -> None:
         table[e] = face_of(t, h) < 0 and opposite_face_of(t, h) < 0
 
 
-def _around_faces(t: Topology, fill: Callable[..., Any]) -> Table:
+def _around_faces(t: Topology, are_vertices: bool) -> Table:
     counts = t.__views__().counts
     n_corners = 2 * (counts[EDGE_SLOTS] - counts[N_DEAD_EDGES]) - counts[N_EXTERIOR]
     corners = np.empty(n_corners, dtype=np.int32)
     offsets = np.empty(counts[FACE_SLOTS] + 1, dtype=np.int32)
-    fill.at(n_corners)(t, corners, offsets)  # type: ignore[attr-defined]
+    _fill_corners.at(n_corners)(t, corners, offsets, are_vertices)
     return corners, offsets
 
 
 @kernel
-def _fill_face_halfedges(t: Any, corners: Any, offsets: Any) -> None:
+def _fill_corners(t: Any, corners: Any, offsets: Any, are_vertices: bool) -> None:
     place = 0
     offsets[0] = 0
     for f in range(face_slots(t)):
         if halfedge_of_face(t, f) >= 0:
             for h in face_halfedges(t, f):
                 if place < len(corners):  # a mesh that breaks its laws may have more
-                    corners[place] = h
-                    place += 1
-        offsets[f + 1] = place
-
-
-@kernel
-def _fill_face_vertices(t: Any, corners: Any, offsets: Any) -> None:
-    place = 0
-    offsets[0] = 0
-    for f in range(face_slots(t)):
-        if halfedge_of_face(t, f) >= 0:
-            for v in face_corners(t, f):
-                if place < len(corners):
-                    corners[place] = v
+                    corners[place] = origin_of(t, h) if are_vertices else h
                     place += 1
         offsets[f + 1] = place
 

@@ -32,9 +32,10 @@ M = TypeVar("M", bound="Base")
 
 __all__ = ["Desk", "natively", "offer"]
 
-# Words of a record: the desk, the method to call otherwise, and what is to be done with a refusal.
+# Words of a record: the desk, the method to call otherwise, and which of its methods the native stands for.
 DESK, BY_PYTHON, MODE = 0, 1, 2
-ACT, TRY, ASK = 0, 1, 2  # call the method, which raises; answer that it was refused; only ask
+ACT, TRY, ASK = 0, 1, 2  # if refused, call the method, which raises; answer that it was refused; only ask
+TRIANGULAR = 3  # act, and join the vertex to the corners opposite
 
 # Words of the desk: what is told of the mesh when the desk is opened ...
 (

@@ -83,19 +83,6 @@ class Base(Asked):
             self._catch_up()
         return result
 
-    def _act_on_two(self, operation: Operation[Any, Any], a: Any, b: Any) -> int:
-        """The same for two arguments, for what is called by the million: 60 ns less than gathering them in a tuple."""
-        quick, carrier = operation.quick, self._topology.lowered
-        if quick is None or carrier is None:
-            return self._act_slowly(operation, (a, b))
-        try:
-            result: int = quick(carrier, a, b)
-        except OverflowError:
-            return -MISSING_ELEMENT
-        if self._t.counts[NEWS]:
-            self._catch_up()
-        return result
-
     def _act_and_place(self, operation: Operation[Any, Any], args: tuple[Any, ...], point: ArrayLike | None) -> int:
         place = None if point is None else as_point(point)
         v = self._act(operation, *args)

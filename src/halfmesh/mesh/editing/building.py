@@ -132,7 +132,7 @@ class Building(Base):
             if found >= 0:
                 return self._made(Edge, found >> 1)
         gap_is_said = gap_a >= 0 or gap_b >= 0
-        h = self._act(try_add_edge_in, a, gap_a, b, gap_b) if gap_is_said else self._act_on_two(try_add_edge, a, b)
+        h = self._act(try_add_edge_in, a, gap_a, b, gap_b) if gap_is_said else self._act(try_add_edge, a, b)
         if h < 0:
             self._refuse("join", h, ("vertex", a), ("vertex", b))
         return self._made(Edge, h >> 1)
@@ -150,7 +150,7 @@ class Building(Base):
         self._living(Vertex, a), self._living(Vertex, b)
         if a == b and not allow_loop:
             return False
-        if not allow_parallel and self._act_on_two(find_halfedge, a, b) >= 0:
+        if not allow_parallel and self._act(find_halfedge, a, b) >= 0:
             return True
         return self._act(add_edge_in_status, a, gap_a, b, gap_b) == 0
 
@@ -175,7 +175,7 @@ class Building(Base):
     def can_make_adjacent(self, arriving: Halfedge | int, leaving: Halfedge | int) -> bool:
         """Whether :meth:`make_adjacent` could bring the two together. O(degree)."""
         h, g = self._living(Halfedge, arriving), self._living(Halfedge, leaving)
-        return self._act_on_two(make_adjacent_status, h, g) == 0
+        return self._act(make_adjacent_status, h, g) == 0
 
     @natively(natives.add_face, try_add_triangle, makes=natives.OF_ADD_FACE)
     def add_face(

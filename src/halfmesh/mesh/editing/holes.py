@@ -167,7 +167,7 @@ class Holes(Base):
     def can_add_vertex_and_face_to_boundary(self, a: Halfedge | int, b: Halfedge | int) -> bool:
         """Whether :meth:`add_vertex_and_face_to_boundary` would lay a face there. O(sides of the hole)."""
         h, g = self._living(Halfedge, a), self._living(Halfedge, b)
-        return self._act_on_two(add_vertex_and_face_to_boundary_status, h, g) == 0
+        return self._act(add_vertex_and_face_to_boundary_status, h, g) == 0
 
     def add_vertex_and_face_to_boundary(
         self, a: Halfedge | int, b: Halfedge | int, point: ArrayLike | None = None
@@ -211,7 +211,7 @@ class Holes(Base):
         """
         place = None if point is None else as_point(point)
         h, g = self._index(Halfedge, a), self._index(Halfedge, b)
-        v = self._act_on_two(try_add_vertex_and_face_to_boundary, h, g)
+        v = self._act(try_add_vertex_and_face_to_boundary, h, g)
         if v < 0:
             self._refuse("add a face from", v, ("halfedge", h), ("halfedge", g))
         return self._placed(v, place)

@@ -14,7 +14,7 @@ from halfmesh.core.operators.splits import (
 )
 from halfmesh.core.slots import is_full
 from halfmesh.core.statuses import DELETED_ELEMENT
-from halfmesh.mesh.desk import ASK, TRY, natively
+from halfmesh.mesh.desk import ASK, TRIANGULAR, TRY, natively
 from halfmesh.mesh.editing import natives
 from halfmesh.mesh.editing.base import Base, as_fraction
 from halfmesh.mesh.elements import Edge, Face, Halfedge, Vertex
@@ -31,7 +31,7 @@ class Local(Base):
     @natively(natives.flip, flip_status, ASK)
     def can_flip(self, edge: Edge | int, *, allow_parallel: bool = False) -> bool:
         """Whether :meth:`flip` would turn the edge. O(degree)."""
-        return self._act_on_two(flip_status, self._living(Edge, edge), allow_parallel) == 0
+        return self._act(flip_status, self._living(Edge, edge), allow_parallel) == 0
 
     @natively(natives.flip, try_flip)
     def flip(self, edge: Edge | int, *, allow_parallel: bool = False) -> None:
@@ -73,7 +73,7 @@ class Local(Base):
         [[3, 2, 0], [2, 3, 1]]
         """
         e = self._index(Edge, edge)
-        code = self._act_on_two(try_flip, e, allow_parallel)
+        code = self._act(try_flip, e, allow_parallel)
         if code < 0:
             self._refuse("flip", code, ("edge", e))
 
@@ -91,7 +91,7 @@ class Local(Base):
         [True, False, False, False, False]
         """
         e = self._index(Edge, edge)
-        code = self._act_on_two(try_flip, e, allow_parallel)
+        code = self._act(try_flip, e, allow_parallel)
         if code < -DELETED_ELEMENT:
             return False
         if code < 0:
@@ -154,9 +154,9 @@ class Local(Base):
 
     def can_split_edge_triangular(self, edge: Edge | Halfedge | int, *, allow_parallel: bool = False) -> bool:
         """Whether :meth:`split_edge_triangular` would split the edge. O(1)."""
-        return self._act_on_two(split_edge_triangular_status, self._living_halfedge(edge), allow_parallel) == 0
+        return self._act(split_edge_triangular_status, self._living_halfedge(edge), allow_parallel) == 0
 
-    @natively(natives.split_edge_triangular, try_split_edge_triangular, makes=natives.OF_SPLIT_EDGE_TRIANGULAR)
+    @natively(natives.split_edge, try_split_edge_triangular, TRIANGULAR, makes=natives.OF_SPLIT_EDGE)
     def split_edge_triangular(
         self,
         edge: Edge | Halfedge | int,

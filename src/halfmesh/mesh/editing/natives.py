@@ -31,7 +31,22 @@ from halfmesh.core.topology import (
     topology_at,
 )
 from halfmesh.mesh.attributes import positions_at
-from halfmesh.mesh.desk import ASK, DESK, EDGE, FACE, HALFEDGE, IS_ONLY, MODE, POINTS, TOPOLOGY, TRY, VERTEX, WEIGHT, X
+from halfmesh.mesh.desk import (
+    ASK,
+    DESK,
+    EDGE,
+    FACE,
+    HALFEDGE,
+    IS_ONLY,
+    MODE,
+    POINTS,
+    TOPOLOGY,
+    TRIANGULAR,
+    TRY,
+    VERTEX,
+    WEIGHT,
+    X,
+)
 from halfmesh.mesh.objects import (
     NO_PLACE,
     boolean,
@@ -52,22 +67,19 @@ __all__ = [
     "OF_ADD_FACE",
     "OF_ADD_VERTEX",
     "OF_SPLIT_EDGE",
-    "OF_SPLIT_EDGE_TRIANGULAR",
     "OF_SPLIT_FACE",
     "add_face",
     "add_vertex",
     "collapse",
     "flip",
     "split_edge",
-    "split_edge_triangular",
     "split_face",
 ]
 
 # What each makes at most: vertices, edges and faces. (Splitting a face of more corners may have to grow the columns.)
 OF_ADD_VERTEX = (1, 0, 0)
 OF_ADD_FACE = (0, 4, 1)
-OF_SPLIT_EDGE = (1, 1, 0)
-OF_SPLIT_EDGE_TRIANGULAR = (1, 3, 2)
+OF_SPLIT_EDGE = (1, 3, 2)  # and the triangles beside
 OF_SPLIT_FACE = (1, FEW, FEW)
 
 
@@ -121,33 +133,19 @@ def collapse(self: int, arguments: int, n: int, names: int) -> int:
 
 @native
 def split_edge(self: int, arguments: int, n: int, names: int) -> int:
-    """``split_edge(edge, point=None, *, at=0.5)``."""
+    """``split_edge(edge, point=None, *, at=0.5)``, or ``split_edge_triangular(...)``."""
     record = record_of(self)
     desk = word_at(record, DESK)
     h = halfedge_in(desk, word_at(arguments, 0)) if n >= 1 and is_open(desk) else -1
     is_told = options_in(desk, arguments, 1, n, names, 0.5) if h >= 0 and _has_room(desk, *OF_SPLIT_EDGE) else -1
     if is_told < 0:
         return method(record, arguments, n, names)
-    t = topology_at(word_at(desk, TOPOLOGY))
+    t, weight = topology_at(word_at(desk, TOPOLOGY)), real_at(desk, WEIGHT)
     noting = _note_less(t, desk, is_told == 1)
-    v = try_split_edge(t, h, real_at(desk, WEIGHT))
-    t.counts[NOTING] = noting
-    return _answer(t, desk, v, is_told) if v >= 0 else method(record, arguments, n, names)
-
-
-@native
-def split_edge_triangular(self: int, arguments: int, n: int, names: int) -> int:
-    """``split_edge_triangular(edge, point=None, *, at=0.5)``."""
-    record = record_of(self)
-    desk = word_at(record, DESK)
-    h = halfedge_in(desk, word_at(arguments, 0)) if n >= 1 and is_open(desk) else -1
-    may = h >= 0 and _has_room(desk, *OF_SPLIT_EDGE_TRIANGULAR)
-    is_told = options_in(desk, arguments, 1, n, names, 0.5) if may else -1
-    if is_told < 0:
-        return method(record, arguments, n, names)
-    t = topology_at(word_at(desk, TOPOLOGY))
-    noting = _note_less(t, desk, is_told == 1)
-    v = try_split_edge_triangular(t, h, real_at(desk, WEIGHT), False)
+    if word_at(record, MODE) == TRIANGULAR:
+        v = try_split_edge_triangular(t, h, weight, False)
+    else:
+        v = try_split_edge(t, h, weight)
     t.counts[NOTING] = noting
     return _answer(t, desk, v, is_told) if v >= 0 else method(record, arguments, n, names)
 

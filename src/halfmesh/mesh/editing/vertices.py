@@ -33,7 +33,7 @@ class Vertices(Base):
 
     def can_split_vertex(self, a: Halfedge | int, b: Halfedge | int) -> bool:
         """Whether :meth:`split_vertex` would split a vertex there: whether both leave the same one. O(1)."""
-        return self._act_on_two(split_vertex_status, self._living(Halfedge, a), self._living(Halfedge, b)) == 0
+        return self._act(split_vertex_status, self._living(Halfedge, a), self._living(Halfedge, b)) == 0
 
     def split_vertex(self, a: Halfedge | int, b: Halfedge | int, point: ArrayLike | None = None) -> Halfedge:
         r"""Split a vertex into two that a new edge joins: the dual of :meth:`connect`.
@@ -84,7 +84,7 @@ class Vertices(Base):
         """
         place = None if point is None else as_point(point)
         h, g = self._index(Halfedge, a), self._index(Halfedge, b)
-        x = self._act_on_two(try_split_vertex, h, g)
+        x = self._act(try_split_vertex, h, g)
         if x < 0:
             self._refuse("split the vertex of", x, ("halfedge", h), ("halfedge", g))
         made = self._made(Halfedge, x)
@@ -93,7 +93,7 @@ class Vertices(Base):
 
     def can_join_vertices(self, halfedge: Halfedge | int, *, allow_parallel: bool = False) -> bool:
         """Whether :meth:`join_vertices` would contract the halfedge. Some O(degree^2)."""
-        return self._act_on_two(join_vertices_status, self._living(Halfedge, halfedge), allow_parallel) == 0
+        return self._act(join_vertices_status, self._living(Halfedge, halfedge), allow_parallel) == 0
 
     def join_vertices(
         self,
@@ -214,7 +214,7 @@ class Vertices(Base):
 
     def can_unweld(self, a: Halfedge | int, b: Halfedge | int) -> bool:
         """Whether :meth:`unweld` would take a vertex apart there. O(1)."""
-        return self._act_on_two(unweld_status, self._living(Halfedge, a), self._living(Halfedge, b)) == 0
+        return self._act(unweld_status, self._living(Halfedge, a), self._living(Halfedge, b)) == 0
 
     def unweld(self, a: Halfedge | int, b: Halfedge | int) -> Vertex:
         """Take a vertex apart at two of its gaps.
@@ -249,7 +249,7 @@ class Vertices(Base):
         (Vertex(5), 2)
         """
         h, g = self._index(Halfedge, a), self._index(Halfedge, b)
-        w = self._act_on_two(try_unweld, h, g)
+        w = self._act(try_unweld, h, g)
         if w < 0:
             self._refuse("unweld", w, ("halfedge", h), ("halfedge", g))
         return self._made(Vertex, w)
